@@ -1,0 +1,40 @@
+// `[coupling]`: what coupler and participants both have to know of the case.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "proto/case/case_file.hpp"
+
+namespace proto {
+
+enum class Scheme { robin_explicit, serial_staggered };  // R1, E1
+
+/// How the coupler starts one participant: `command` plus the arguments of proto/README.md "Starting a participant".
+struct ParticipantSpec {
+  std::string name;                  ///< "qdem", "fem": the two roles of the interface
+  std::vector<std::string> command;  ///< program (looked up beside the coupler, then in PATH) and its first arguments
+};
+
+struct Coupling {
+  Scheme scheme = Scheme::robin_explicit;
+  double window_s = 5e-5;
+  std::uint64_t n_windows = 0;
+  double output_interval_s = 0.0;     ///< of the participants' fields; 0: no field output
+  int initialise_max_windows = 0;     ///< 0: no initialise phase
+  int initialise_min_windows = 0;
+  double initialise_tolerance = 1e-3; ///< relative change of the seat force over `initialise_check_windows`
+  int initialise_check_windows = 40;
+  double connect_timeout_s = 60.0;
+  double stall_timeout_s = 60.0;      ///< alive but without progress
+  ParticipantSpec qdem, fem;
+};
+
+/// Reads `[coupling]`:
+///   scheme "R1"|"E1", window_s, duration_s (a whole number of windows), output_interval_s, connect_timeout_s,
+///   stall_timeout_s, qdem_command [..] (default ["qdem_solver", "participant"]), fem_command [..] (default
+///   ["fem_solver", "participant"]); [coupling.initialise] max_windows, min_windows, check_windows, tolerance.
+Coupling read_coupling(const CaseFile& file);
+
+}  // namespace proto

@@ -1,0 +1,84 @@
+// What a solver links to take part in a coupled run: implement Participant, call serve().
+//
+// Call order (the coupler leads; the session checks it and answers a break of it with a fault):
+//
+//     describe -> configure -> [advance(initialise) commit]* -> start -> [advance [rollback advance]* commit]* -> finish
+//     save / restore between a commit and the next advance
+//
+// serve() owns a communication thread, which holds the socket and sends heartbeats while the solver computes. All
+// functions of the Participant are called on the thread that called serve(). No ZeroMQ or FlatBuffers type is visible.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "proto/error.hpp"
+#include "proto/wire/messages.hpp"
+
+namespace proto {
+
+/// Work counter that a solver bumps while it computes (each sub-step, each solver iteration). The coupler takes a
+/// participant whose heartbeats repeat the same count for hung.
+class Progress {
+ public:
+  void bump() noexcept { count_.fetch_add(1, std::memory_order_relaxed); }
+  std::uint64_t count() const noexcept { return count_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::uint64_t> count_{0};
+};
+
+/// A solver as the coupler sees it. Anything thrown ends the session: the text goes to the coupler as a fault (a
+/// proto::Error keeps its exit code) and serve() rethrows. The object is not called again after a throw.
+class Participant {
+ public:
+  virtual ~Participant() = default;
+
+  /// Name, capabilities; first call.
+  virtual std::string name() const = 0;
+  virtual Capabilities capabilities() const = 0;
+
+  /// Reads nothing from the wire: the cells of the case's rail seats as this solver sees them, and the fields it takes
+  /// and gives.
+  virtual Interface describe() = 0;
+
+  /// Window length, number of windows, pad law. Returns the largest stable step [s] if the solver is explicit.
+  virtual Configured configure(const Configure& request) = 0;
+
+  /// Solves one window. `request.phase` = initialise: with artificial damping, clocks standing. A second call for the
+  /// same window comes only after rollback().
+  virtual FieldSet advance(const Advance& request, Progress& progress) = 0;
+
+  /// The window just advanced is final; write output here.
+  virtual void commit(const Commit& request) = 0;
+
+  /// Back to the state of the last commit. Only if capabilities().rollback.
+  virtual void rollback(const Rollback& request);
+
+  /// Ends the initialise phase: damping off, clock to 0. Returns the initial values of the outgoing fields.
+  virtual FieldSet start() = 0;
+
+  /// Writes / reads the whole mutable state; save returns its hash. Only if capabilities().save_restore.
+  virtual std::uint64_t save(const Save& request);
+  virtual void restore(const Restore& request);
+
+  /// Closes output; facts for the summary.
+  virtual std::vector<Fact> finish() = 0;
+};
+
+/// Where the coupler is. Filled from the command line and the environment by read_session_options().
+struct SessionOptions {
+  std::string endpoint;       ///< e.g. ipc:///run/user/0/qdem-fem-1234/coupler
+  std::string session_token;  ///< secret of this run, from the environment variable QDEM_FEM_SESSION_TOKEN
+  std::uint64_t case_hash = 0;
+  double connect_timeout_s = 30.0;
+  double peer_timeout_s = 15.0;  ///< without any sign of the coupler
+};
+
+/// Runs the session to its end. Returns after Finish/Bye.
+/// Throws proto::Error: unavailable (no coupler, coupler lost), protocol (a message out of order or malformed, a
+/// rejected handshake, with the coupler's reason), or whatever the participant threw.
+void serve(Participant& participant, const SessionOptions& options);
+
+}  // namespace proto
