@@ -31,7 +31,7 @@ struct ContactState {
   std::vector<int> triangle_offsets;          ///< CSR of candidate triangles (vertex-surface entries only)
   std::vector<int> triangles;
   std::vector<Eigen::Vector3d> slip;          ///< tangential spring elongation u_t of each key [m]
-  std::vector<double> reference_positions;    ///< x at the last rebuild: the list's age is measured from here
+  double travel = 0.0;                        ///< bound of any node's movement since the last rebuild [m]
   std::int64_t rebuilds = 0;
 };
 

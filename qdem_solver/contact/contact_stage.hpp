@@ -1,0 +1,50 @@
+// Contact between the surfaces of different bodies, and with planes.
+#pragma once
+
+#include <memory>
+
+#include "proto/span.hpp"
+#include "qdem_solver/model/model.hpp"
+#include "qdem_solver/state/state.hpp"
+
+namespace qdem {
+
+/// Figures of the contacts at one instant.
+struct ContactReport {
+  std::int64_t candidates = 0;          ///< entries of the candidate list
+  std::int64_t live = 0;                ///< contacts that carry a force
+  double coordination_number = 0.0;     ///< mean number of other bodies that a stone touches [-]
+  double largest_penetration = 0.0;     ///< of the rounded surfaces [m]
+  double elastic_energy = 0.0;          ///< normal and tangential springs [J]
+};
+
+/// Finds contacts and computes their forces. Holds scratch only; all history lives in the State.
+/// Every sum is taken in an order fixed by the candidate list, so results do not depend on the number of threads.
+class ContactStage {
+ public:
+  explicit ContactStage(const Model& model);
+  ~ContactStage();
+
+  /// Adds `travel` [m], an upper bound of how far any node moved since the last call, to the list's age; rebuilds the
+  /// candidate list when the age exceeds half the skin. Returns whether it rebuilt. Slip of surviving keys is kept.
+  bool update_candidates(State& state, double travel);
+
+  /// Forces of all contacts at positions state.x and velocities state.v; advances the slip by dt [s]. Runs with the
+  /// calling program's OpenMP threads.
+  void compute(State& state, double dt);
+
+  /// Adds the contact forces on the nodes of `body` to `force` [N], an array laid out like state.x.
+  void gather(int body, proto::Span<double> force) const;
+
+  /// Largest sum of contact stiffness over mass, k/m [1/s2], of any node in the current list if all its candidates
+  /// touched; for the stability bound.
+  double largest_stiffness_over_mass(const State& state) const;
+
+  ContactReport report(const State& state) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace qdem
