@@ -1,0 +1,66 @@
+// The ballast bed at rest under its sleeper: built once by the QDEM solver itself, then loaded from a cache.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "proto/case/case_file.hpp"
+#include "qdem_solver/model/model.hpp"
+#include "qdem_solver/state/state.hpp"
+
+namespace qdem {
+
+/// What the bed has to know of `[qdem]`; whoever reads that section hands it over.
+struct BedPhysics {
+  Material stone, sleeper;
+  ContactLaw contact;            ///< between bodies, at real stiffness; also the planes' k_n, k_t, damping, rounding
+  double ground_friction = 0.5;  ///< of the plane under the ballast [-]
+  Eigen::Vector3d gravity{0, 0, -9.81};  ///< [m/s2]
+};
+
+/// Figures of a finished bed. All are stored in the bed file, so a loaded bed reports what the built one did.
+struct BedReport {
+  std::int64_t stones = 0;
+  std::int64_t elements = 0;  ///< tetrahedra of stones and sleeper
+  std::int64_t seed = 0;
+  double porosity_under_sleeper = 0.0;  ///< in a probe box under the sleeper, clear of its boundaries [-]
+  double porosity_layer = 0.0;          ///< in the whole layer under the sleeper's bottom level, clear of walls [-]
+  double coordination_number = 0.0;     ///< mean number of other bodies a stone touches [-]
+  double largest_penetration = 0.0;     ///< of the rounded surfaces [m]
+  double unbalanced_force_ratio = 0.0;  ///< mean net force on a stone / mean sum of contact force sizes on a stone [-]
+  double kinetic_energy = 0.0;          ///< of all bodies [J]
+  double d50 = 0.0;                     ///< sieve size that half of the stones' mass passes [m]
+  double elements_per_stone = 0.0;
+  double sleeper_settlement = 0.0;  ///< downward move of the sleeper while it was bedded in [m]
+  double sleeper_shift = 0.0;       ///< along the track, taken out by shifting the bed [m]
+  double sleeper_tilt = 0.0;        ///< pitch about the lateral axis that is left [rad]
+  double build_wall_s = 0.0;
+  std::string hash;                ///< of the inputs, 16 hexadecimal digits
+  bool from_cache = false;         ///< not stored
+  std::vector<std::string> notes;  ///< e.g. templates rejected and why
+};
+
+/// A bed at rest: time 0, velocities of the last relaxation step as they are, contact history kept.
+///
+/// Body 0 is the sleeper (`model.pad_body` = 0), bodies 1.. are stones. `model.materials` are {stone, sleeper}. Planes:
+/// "ground", "symmetry" (y = 0, stones only), "bay_begin", "bay_end". Fixities hold the sleeper's cut at u_y = 0. No
+/// pads: the caller adds them. Local damping and drag are zero.
+struct Bed {
+  Model model;
+  State state;
+  BedReport report;
+};
+
+/// Builds the bed of `file` ([bed], [track], [[rail_seat]]) or loads it from the cache when a bed with the same inputs
+/// is there. Same inputs give bitwise the same bed, built or loaded, with any number of threads.
+///
+/// The cache is `cache_folder`, by default $QDEM_BED_CACHE, else $XDG_CACHE_HOME/qdem_fem/beds, else .cache/beds under
+/// the working folder. Throws proto::Error: config for bad keys; bad_data when the bed misses a limit of the case
+/// (porosity, rest, penetration, sleeper tilt); cannot_create, io_error for the cache.
+Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::string& cache_folder = {});
+
+/// Reads and checks [bed] and the geometry it implies without building anything. Throws as make_bed for bad keys.
+void check_bed(const proto::CaseFile& file);
+
+}  // namespace qdem
