@@ -29,12 +29,13 @@ struct Range {
 class CaseFile;
 
 /// One table of the case file. Reading a key marks it as known; `finish()` refuses what was never read.
-/// A copy shares the marks. A section that the file lacks is empty: its defaults apply and its required keys are missing.
+/// A copy shares the marks. A section that the file lacks is empty: its defaults apply and its required keys are
+/// missing.
 class Section {
  public:
   bool has(const std::string& key) const;
 
-  double number(const std::string& key, Range range = Range::any()) const;                      ///< required
+  double number(const std::string& key, Range range = Range::any()) const;  ///< required
   double number_or(const std::string& key, double fallback, Range range = Range::any()) const;
   std::int64_t integer(const std::string& key, Range range = Range::any()) const;
   std::int64_t integer_or(const std::string& key, std::int64_t fallback, Range range = Range::any()) const;
@@ -43,19 +44,24 @@ class Section {
   std::string text_or(const std::string& key, const std::string& fallback) const;
   /// A text that must be one of `choices`; the message lists them and names the nearest.
   std::string choice(const std::string& key, const std::vector<std::string>& choices) const;
-  std::string choice_or(const std::string& key, const std::string& fallback, const std::vector<std::string>& choices) const;
+  std::string choice_or(const std::string& key, const std::string& fallback,
+                        const std::vector<std::string>& choices) const;
   /// Numbers; `length` = 0 accepts any length.
   std::vector<double> numbers(const std::string& key, std::size_t length = 0, Range range = Range::any()) const;
-  std::vector<double> numbers_or(const std::string& key, const std::vector<double>& fallback, Range range = Range::any()) const;
+  std::vector<double> numbers_or(const std::string& key, const std::vector<double>& fallback,
+                                 Range range = Range::any()) const;
+  std::vector<std::int64_t> integers(const std::string& key, std::size_t length = 0, Range range = Range::any()) const;
   std::vector<std::string> texts_or(const std::string& key, const std::vector<std::string>& fallback) const;
 
-  /// A path as written, relative paths resolved against the folder of the case file. The file must exist.
+  /// A path as written, relative paths resolved against the folder of the case file. Throws missing_input if there is
+  /// no such file.
   std::string existing_path(const std::string& key) const;
 
-  Section section(const std::string& key) const;               ///< sub-table, empty if absent
-  std::vector<Section> sections(const std::string& key) const; ///< array of tables, empty if absent
+  Section section(const std::string& key) const;                ///< sub-table, empty if absent
+  std::vector<Section> sections(const std::string& key) const;  ///< array of tables, empty if absent
 
-  /// Throws for the first key that nobody read, naming the nearest one that somebody asked for. Recurses.
+  /// Throws for the first key that nobody read, naming the nearest one that somebody asked for. Recurses into the
+  /// sub-tables that were read; a sub-table that nobody read is itself such a key.
   void finish() const;
 
   /// Throws a config error about `key` of this section: "problem - FILE:LINE:COL: section.key - advice".

@@ -21,13 +21,13 @@ struct Coupling {
   Scheme scheme = Scheme::robin_explicit;
   double window_s = 5e-5;
   std::uint64_t n_windows = 0;
-  double output_interval_s = 0.0;     ///< of the participants' fields; 0: no field output
-  int initialise_max_windows = 0;     ///< 0: no initialise phase
+  double output_interval_s = 0.0;  ///< of the participants' fields; 0: no field output
+  int initialise_max_windows = 0;  ///< 0: no initialise phase
   int initialise_min_windows = 0;
-  double initialise_tolerance = 1e-3; ///< relative change of the seat force over `initialise_check_windows`
+  double initialise_tolerance = 1e-3;  ///< relative change of the seat force over `initialise_check_windows`
   int initialise_check_windows = 40;
   double connect_timeout_s = 60.0;
-  double stall_timeout_s = 60.0;      ///< alive but without progress
+  double stall_timeout_s = 60.0;  ///< alive but without progress
   ParticipantSpec qdem, fem;
 };
 

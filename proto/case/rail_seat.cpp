@@ -6,17 +6,19 @@
 namespace proto {
 namespace {
 
-Eigen::Vector3d vector3(const Section& section, const std::string& key, const std::vector<double>& fallback,
-                        Range range = Range::any()) {
-  const auto values = section.numbers_or(key, fallback, range);
-  if (values.size() != 3) section.fail(key, "three numbers are wanted, found " + std::to_string(values.size()));
+Eigen::Vector3d vector3(const Section& section, const std::string& key, Range range = Range::any()) {
+  const auto values = section.numbers(key, 3, range);
   return {values[0], values[1], values[2]};
+}
+
+Eigen::Vector3d vector3_or(const Section& section, const std::string& key, const Eigen::Vector3d& fallback) {
+  return section.has(key) ? vector3(section, key) : fallback;
 }
 
 Eigen::Matrix3d read_axes(const Section& section) {
   Eigen::Matrix3d axes;
-  axes.col(0) = vector3(section, "longitudinal_axis", {1, 0, 0});
-  axes.col(1) = vector3(section, "lateral_axis", {0, 1, 0});
+  axes.col(0) = vector3_or(section, "longitudinal_axis", Eigen::Vector3d::UnitX());
+  axes.col(1) = vector3_or(section, "lateral_axis", Eigen::Vector3d::UnitY());
   axes.col(2) = axes.col(0).cross(axes.col(1));
   if (!(axes.transpose() * axes).isIdentity(1e-9))
     section.fail("lateral_axis", "the longitudinal and lateral axes are not orthonormal",
@@ -27,15 +29,14 @@ Eigen::Matrix3d read_axes(const Section& section) {
 RailSeat read_rail_seat(const Section& section) {
   RailSeat seat;
   seat.name = section.text("name");
-  seat.origin = vector3(section, "origin_m", {});
+  seat.origin = vector3(section, "origin_m");
   seat.axes = read_axes(section);
   const auto half = section.numbers("half_lengths_m", 2, Range::positive());
   seat.half_lengths = {half[0], half[1]};
-  const auto cells = section.numbers("cells", 2, Range::between(1, 64));
+  const auto cells = section.integers("cells", 2, Range::between(1, 64));
   seat.cells = {static_cast<int>(cells[0]), static_cast<int>(cells[1])};
-  if (seat.cells[0] != cells[0] || seat.cells[1] != cells[1]) section.fail("cells", "a fraction of a cell is wanted");
-  seat.stiffness = vector3(section, "stiffness_n_per_m", {}, Range::not_negative());
-  seat.damping = vector3(section, "damping_ns_per_m", {}, Range::not_negative());
+  seat.stiffness = vector3(section, "stiffness_n_per_m", Range::not_negative());
+  seat.damping = vector3(section, "damping_ns_per_m", Range::not_negative());
   seat.clip_preload = section.number_or("clip_preload_n", 0.0, Range::not_negative());
   seat.tension_cutoff = section.boolean_or("tension_cutoff", false);
   section.finish();
@@ -62,7 +63,8 @@ std::vector<RailSeat> read_rail_seats(const CaseFile& file) {
   std::set<std::string> names;
   for (const auto& section : file.sections("rail_seat")) {
     seats.push_back(read_rail_seat(section));
-    if (!names.insert(seats.back().name).second) section.fail("name", "two rail seats are called '" + seats.back().name + "'");
+    if (!names.insert(seats.back().name).second)
+      section.fail("name", "two rail seats are called '" + seats.back().name + "'");
   }
   if (seats.empty())
     throw Error(ExitCode::config, "the case has no rail seat", file.path(), "add a [[rail_seat]] table");

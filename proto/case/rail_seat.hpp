@@ -15,14 +15,14 @@ namespace proto {
 /// 1 longitudinal (along the rail), 2 lateral, 3 normal (from sleeper to rail).
 struct RailSeat {
   std::string name;
-  Eigen::Vector3d origin;             ///< centre of the pad, global frame [m]
-  Eigen::Matrix3d axes;               ///< columns: unit vectors of the seat axes in the global frame, right-handed
-  Eigen::Vector2d half_lengths;       ///< half the pad's length along axes 1 and 2 [m]
-  Eigen::Vector2i cells;              ///< n x m cells along axes 1 and 2
-  Eigen::Vector3d stiffness;          ///< whole pad, per axis [N/m]
-  Eigen::Vector3d damping;            ///< whole pad, per axis [N s/m]
-  double clip_preload = 0.0;          ///< whole pad, along axis 3 [N]
-  bool tension_cutoff = false;        ///< along axis 3
+  Eigen::Vector3d origin;        ///< centre of the pad, global frame [m]
+  Eigen::Matrix3d axes;          ///< columns: unit vectors of the seat axes in the global frame, right-handed
+  Eigen::Vector2d half_lengths;  ///< half the pad's length along axes 1 and 2 [m]
+  Eigen::Vector2i cells;         ///< n x m cells along axes 1 and 2
+  Eigen::Vector3d stiffness;     ///< whole pad, per axis [N/m]
+  Eigen::Vector3d damping;       ///< whole pad, per axis [N s/m]
+  double clip_preload = 0.0;     ///< whole pad, along axis 3 [N]
+  bool tension_cutoff = false;   ///< along axis 3
 
   int n_cells() const { return cells[0] * cells[1]; }
   /// Centre of cell `index` (axis 1 runs fastest), global frame [m].

@@ -1,0 +1,60 @@
+#include "proto/case/coupling.hpp"
+
+#include <cmath>
+
+#include "proto/error.hpp"
+
+namespace proto {
+namespace {
+
+constexpr double most_windows = 1e9;
+
+std::uint64_t read_window_count(const Section& section, double window_s) {
+  const double duration = section.number("duration_s", Range::positive());
+  const double count = duration / window_s, whole = std::round(count);
+  if (count > most_windows) section.fail("duration_s", "more than 1e9 windows are asked for", "check window_s");
+  if (whole < 1.0 || std::abs(count - whole) > 1e-9 * whole)
+    section.fail("duration_s", "the duration is not a whole number of windows", "give a multiple of window_s");
+  return static_cast<std::uint64_t>(whole);
+}
+
+ParticipantSpec read_participant(const Section& section, const std::string& name) {
+  const std::string key = name + "_command";
+  ParticipantSpec spec{name, section.texts_or(key, {name + "_solver", "participant"})};
+  if (spec.command.empty() || spec.command.front().empty())
+    section.fail(key, "the command is empty", "give the program and its first arguments");
+  return spec;
+}
+
+void read_initialise(const Section& section, Coupling& coupling) {
+  const auto count = [&](const char* key, int fallback, double lowest) {
+    return static_cast<int>(section.integer_or(key, fallback, Range::between(lowest, 1e9)));
+  };
+  coupling.initialise_max_windows = count("max_windows", coupling.initialise_max_windows, 0);
+  coupling.initialise_min_windows = count("min_windows", coupling.initialise_min_windows, 0);
+  coupling.initialise_check_windows = count("check_windows", coupling.initialise_check_windows, 1);
+  coupling.initialise_tolerance = section.number_or("tolerance", coupling.initialise_tolerance, Range::positive());
+  if (coupling.initialise_min_windows > coupling.initialise_max_windows)
+    section.fail("min_windows", "min_windows is greater than max_windows");
+}
+
+}  // namespace
+
+Coupling read_coupling(const CaseFile& file) {
+  const auto section = file.section("coupling");
+  Coupling coupling;
+  coupling.scheme =
+      section.choice_or("scheme", "R1", {"R1", "E1"}) == "R1" ? Scheme::robin_explicit : Scheme::serial_staggered;
+  coupling.window_s = section.number_or("window_s", coupling.window_s, Range::positive());
+  coupling.n_windows = read_window_count(section, coupling.window_s);
+  coupling.output_interval_s = section.number_or("output_interval_s", 0.0, Range::not_negative());
+  coupling.connect_timeout_s = section.number_or("connect_timeout_s", coupling.connect_timeout_s, Range::positive());
+  coupling.stall_timeout_s = section.number_or("stall_timeout_s", coupling.stall_timeout_s, Range::positive());
+  coupling.qdem = read_participant(section, "qdem");
+  coupling.fem = read_participant(section, "fem");
+  read_initialise(section.section("initialise"), coupling);
+  section.finish();
+  return coupling;
+}
+
+}  // namespace proto

@@ -1,0 +1,307 @@
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "proto/case/section_data.hpp"
+#include "proto/error.hpp"
+
+namespace proto {
+namespace {
+
+std::string shortest(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
+std::string in_words(const Range& range) {
+  const bool bounded = std::isfinite(range.highest);
+  if (bounded && !range.lowest_excluded) return "between " + shortest(range.lowest) + " and " + shortest(range.highest);
+  const std::string low = (range.lowest_excluded ? "greater than " : "at least ") + shortest(range.lowest);
+  return bounded ? low + " and at most " + shortest(range.highest) : low;
+}
+
+bool holds(const Range& range, double value) {
+  return (range.lowest_excluded ? value > range.lowest : value >= range.lowest) && value <= range.highest;
+}
+
+std::string type_in_words(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "a whole number";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
+  }
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Reads one node of a section; every failure names the node's own place.
+class NodeReader {
+ public:
+  NodeReader(const Section::Data& data, const toml::node& node, std::string key)
+      : data_(data), node_(node), key_(std::move(key)) {}
+
+  double number(const Range& range) const {
+    if (!node_.is_number()) fail("a number is wanted, found " + type_in_words(node_));
+    const double value = *node_.value<double>();
+    if (!std::isfinite(value)) fail("a finite number is wanted, found " + shortest(value));
+    check(range, value);
+    return value;
+  }
+
+  std::int64_t integer(const Range& range) const {
+    if (!node_.is_integer()) fail("a whole number is wanted, found " + type_in_words(node_));
+    const std::int64_t value = **node_.as_integer();
+    check(range, static_cast<double>(value));
+    return value;
+  }
+
+  bool boolean() const {
+    if (!node_.is_boolean()) fail("true or false is wanted, found " + type_in_words(node_));
+    return **node_.as_boolean();
+  }
+
+  std::string text() const {
+    if (!node_.is_string()) fail("a text is wanted, found " + type_in_words(node_));
+    return **node_.as_string();
+  }
+
+  std::string choice(const std::vector<std::string>& choices) const {
+    const auto value = text();
+    for (const auto& name : choices)
+      if (name == value) return value;
+    const auto nearest = nearest_name(value, choices);
+    fail("'" + value + "' is not one of: " + joined(choices), nearest.empty() ? "" : "did you mean '" + nearest + "'?");
+  }
+
+  /// One value per element, each read by `read(NodeReader)`.
+  template <class Read>
+  auto elements(Read read, const char* what) const {
+    const auto* array = node_.as_array();
+    if (!array) fail(std::string("an array of ") + what + " is wanted, found " + type_in_words(node_));
+    std::vector<decltype(read(*this))> values;
+    for (const auto& element : *array)
+      values.push_back(read(NodeReader(data_, element, key_ + "[" + std::to_string(values.size()) + "]")));
+    return values;
+  }
+
+  [[noreturn]] void fail(const std::string& problem, const std::string& advice = {}) const {
+    throw Error(ExitCode::config, problem, data_.where(node_.source(), key_), advice);
+  }
+
+ private:
+  void check(const Range& range, double value) const {
+    if (!holds(range, value)) fail("the value must be " + in_words(range) + ", found " + shortest(value));
+  }
+
+  const Section::Data& data_;
+  const toml::node& node_;
+  std::string key_;
+};
+
+std::optional<NodeReader> offered(Section::Data& data, const std::string& key) {
+  data.asked.insert(key);
+  const auto* node = data.find(key);
+  if (!node) return {};
+  return NodeReader(data, *node, key);
+}
+
+NodeReader required(Section::Data& data, const std::string& key) {
+  if (const auto reader = offered(data, key)) return *reader;
+  std::string advice = "add it";
+  if (data.table) {
+    std::vector<std::string> present;
+    for (const auto& item : *data.table)
+      if (!data.asked.count(std::string(item.first.str()))) present.emplace_back(item.first.str());
+    const auto nearest = nearest_name(key, present);
+    if (!nearest.empty()) {
+      throw Error(ExitCode::config, "unknown key, and '" + key + "' is missing", data.where(nearest),
+                  "did you mean '" + key + "'?");
+    }
+  }
+  throw Error(ExitCode::config, "missing key", data.where(key), advice);
+}
+
+void check_length(const Section& section, const std::string& key, std::size_t found, std::size_t wanted) {
+  if (wanted && found != wanted)
+    section.fail(key, std::to_string(wanted) + " numbers are wanted, found " + std::to_string(found));
+}
+
+}  // namespace
+
+std::string Section::Data::where(const toml::source_region& region, const std::string& key) const {
+  std::string place = document->path;
+  if (region.begin.line) place += ":" + std::to_string(region.begin.line) + ":" + std::to_string(region.begin.column);
+  return place + ": " + full_name(key);
+}
+
+std::string Section::Data::where(const std::string& key) const {
+  if (!table) return where(toml::source_region{}, key);
+  for (const auto& item : *table)
+    if (item.first.str() == key) return where(item.first.source(), key);
+  return where(name.empty() ? toml::source_region{} : table->source(), key);
+}
+
+std::shared_ptr<Section::Data> Section::Data::child(const std::string& key) {
+  asked.insert(key);
+  auto& entry = tables[key];
+  if (entry) return entry;
+  const auto* node = find(key);
+  if (node && !node->is_table())
+    throw Error(ExitCode::config, "a table is wanted, found " + type_in_words(*node), where(key),
+                "write [" + full_name(key) + "]");
+  entry = std::make_shared<Data>();
+  entry->document = document;
+  entry->table = node ? node->as_table() : nullptr;
+  entry->name = full_name(key);
+  return entry;
+}
+
+const std::vector<std::shared_ptr<Section::Data>>& Section::Data::children(const std::string& key) {
+  asked.insert(key);
+  auto& entries = arrays[key];
+  const auto* node = find(key);
+  if (!entries.empty() || !node) return entries;
+  const auto* array = node->as_array();
+  if (!array || (!array->empty() && !array->is_homogeneous<toml::table>()))
+    throw Error(ExitCode::config, "an array of tables is wanted", where(key), "write [[" + full_name(key) + "]]");
+  for (const auto& element : *array) {
+    entries.push_back(std::make_shared<Data>());
+    entries.back()->document = document;
+    entries.back()->table = element.as_table();
+    entries.back()->name = full_name(key);
+  }
+  return entries;
+}
+
+Section::Section(std::shared_ptr<Data> data) : data_(std::move(data)) {}
+
+bool Section::has(const std::string& key) const {
+  return offered(*data_, key).has_value();
+}
+
+double Section::number(const std::string& key, Range range) const {
+  return required(*data_, key).number(range);
+}
+
+double Section::number_or(const std::string& key, double fallback, Range range) const {
+  const auto reader = offered(*data_, key);
+  return reader ? reader->number(range) : fallback;
+}
+
+std::int64_t Section::integer(const std::string& key, Range range) const {
+  return required(*data_, key).integer(range);
+}
+
+std::int64_t Section::integer_or(const std::string& key, std::int64_t fallback, Range range) const {
+  const auto reader = offered(*data_, key);
+  return reader ? reader->integer(range) : fallback;
+}
+
+bool Section::boolean_or(const std::string& key, bool fallback) const {
+  const auto reader = offered(*data_, key);
+  return reader ? reader->boolean() : fallback;
+}
+
+std::string Section::text(const std::string& key) const {
+  return required(*data_, key).text();
+}
+
+std::string Section::text_or(const std::string& key, const std::string& fallback) const {
+  const auto reader = offered(*data_, key);
+  return reader ? reader->text() : fallback;
+}
+
+std::string Section::choice(const std::string& key, const std::vector<std::string>& choices) const {
+  return required(*data_, key).choice(choices);
+}
+
+std::string Section::choice_or(const std::string& key, const std::string& fallback,
+                               const std::vector<std::string>& choices) const {
+  const auto reader = offered(*data_, key);
+  return reader ? reader->choice(choices) : fallback;
+}
+
+std::vector<double> Section::numbers(const std::string& key, std::size_t length, Range range) const {
+  const auto read = [&](const NodeReader& element) { return element.number(range); };
+  const auto values = required(*data_, key).elements(read, "numbers");
+  check_length(*this, key, values.size(), length);
+  return values;
+}
+
+std::vector<double> Section::numbers_or(const std::string& key, const std::vector<double>& fallback,
+                                        Range range) const {
+  return has(key) ? numbers(key, 0, range) : fallback;
+}
+
+std::vector<std::int64_t> Section::integers(const std::string& key, std::size_t length, Range range) const {
+  const auto read = [&](const NodeReader& element) { return element.integer(range); };
+  const auto values = required(*data_, key).elements(read, "whole numbers");
+  check_length(*this, key, values.size(), length);
+  return values;
+}
+
+std::vector<std::string> Section::texts_or(const std::string& key, const std::vector<std::string>& fallback) const {
+  const auto reader = offered(*data_, key);
+  if (!reader) return fallback;
+  return reader->elements([](const NodeReader& element) { return element.text(); }, "texts");
+}
+
+std::string Section::existing_path(const std::string& key) const {
+  const std::filesystem::path written = text(key);
+  const auto base = std::filesystem::path(data_->document->path).parent_path();
+  const auto path = (written.is_absolute() ? written : base / written).lexically_normal();
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure))
+    throw Error(ExitCode::missing_input, "there is no file '" + path.string() + "'", data_->where(key),
+                "relative paths start at the folder of the case file");
+  return path.string();
+}
+
+Section Section::section(const std::string& key) const {
+  return Section(data_->child(key));
+}
+
+std::vector<Section> Section::sections(const std::string& key) const {
+  std::vector<Section> result;
+  for (const auto& data : data_->children(key)) result.push_back(Section(data));
+  return result;
+}
+
+void Section::finish() const {
+  if (data_->table) {
+    for (const auto& item : *data_->table) {
+      const std::string key(item.first.str());
+      if (data_->asked.count(key)) continue;
+      const auto nearest = nearest_name(key, data_->asked);
+      throw Error(ExitCode::config, "unknown key", data_->where(item.first.source(), key),
+                  nearest.empty() ? "valid keys: " + joined({data_->asked.begin(), data_->asked.end()})
+                                  : "did you mean '" + nearest + "'?");
+    }
+  }
+  for (const auto& item : data_->tables) Section(item.second).finish();
+  for (const auto& item : data_->arrays)
+    for (const auto& data : item.second) Section(data).finish();
+}
+
+void Section::fail(const std::string& key, const std::string& problem, const std::string& advice) const {
+  const auto* node = data_->find(key);
+  throw Error(ExitCode::config, problem, node ? data_->where(node->source(), key) : data_->where(key), advice);
+}
+
+}  // namespace proto
