@@ -41,6 +41,7 @@ struct State {
   double time = 0.0;                  ///< [s]
   std::vector<double> x, v, a;        ///< position [m], velocity [m/s], acceleration [m/s2]
   ContactState contact;
+  std::vector<double> pad_force;      ///< on the sleeper per cell and seat axis, part of `a` [N]
 
   Eigen::Vector3d position(const Model& model, int body, int node) const { return gather(model, x, body, node); }
   Eigen::Vector3d velocity(const Model& model, int body, int node) const { return gather(model, v, body, node); }
