@@ -27,6 +27,10 @@ class ResultReader {
   std::uint64_t n_committed(const std::string& group = "/") const;
   /// Steps of /VTKHDF that are whole; 0 when the file has no /VTKHDF.
   std::uint64_t n_steps() const;
+  /// Extents of a dataset, without reading it.
+  std::vector<std::size_t> shape(const std::string& dataset) const;
+  /// Whether the dataset was created to grow with the steps.
+  bool is_extendable(const std::string& dataset) const;
   /// Whole dataset.
   ResultArray read(const std::string& dataset) const;
   /// Only its first `n_rows` rows: pass n_committed().

@@ -1,0 +1,34 @@
+#include "proto/result/hdf5_handle.hpp"
+
+namespace proto::hdf5 {
+namespace {
+
+herr_t take_innermost(unsigned, const H5E_error2_t* error, void* text) {
+  auto& found = *static_cast<std::string*>(text);
+  if (found.empty() && error->desc != nullptr) found = error->desc;
+  return 0;
+}
+
+}  // namespace
+
+void start_library() {
+  static const bool started = [] {
+    H5dont_atexit();
+    H5open();
+    return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+  }();
+  static_cast<void>(started);
+}
+
+std::string last_error() {
+  std::string text;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_innermost, &text);
+  // The file driver writes "... errno = 28, error message = 'No space left on device', ...".
+  const std::string key = "error message = '";
+  const auto begin = text.find(key);
+  if (begin == std::string::npos) return text.empty() ? "HDF5 gives no reason" : text;
+  const auto end = text.find('\'', begin + key.size());
+  return text.substr(begin + key.size(), end - begin - key.size());
+}
+
+}  // namespace proto::hdf5

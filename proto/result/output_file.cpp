@@ -1,0 +1,185 @@
+#include "proto/result/output_file.hpp"
+
+#include <sys/statvfs.h>
+
+#include <filesystem>
+
+namespace proto::hdf5 {
+namespace {
+
+// Equal runs give equal bytes: HDF5 would otherwise store the time of creation with every object.
+Handle timeless(hid_t property_class) {
+  Handle properties(H5Pcreate(property_class), H5Pclose);
+  H5Pset_obj_track_times(properties.id(), false);
+  return properties;
+}
+
+Handle with_groups() {
+  Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(properties.id(), 1);
+  return properties;
+}
+
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), H5T_VARIABLE);
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  return type;
+}
+
+std::vector<hsize_t> with_rows(hsize_t rows, const std::vector<hsize_t>& row_shape) {
+  std::vector<hsize_t> dims{rows};
+  dims.insert(dims.end(), row_shape.begin(), row_shape.end());
+  return dims;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path, const Attributes& attributes) : path_(path) {
+  start_library();
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  // No lock: a running simulation's file can be looked at, and a stale lock of a killed one cannot be in the way.
+  H5Pset_file_locking(access.id(), false, true);
+  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  Handle creation = timeless(H5P_FILE_CREATE);
+  file_ = Handle(check(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), "create"), H5Fclose);
+  for (const auto& [name, value] : attributes) write_attribute(file_.id(), name, value);
+}
+
+OutputFile::~OutputFile() {
+  for (auto& handle : kept_) {
+    if (!broken_ && !handle.close()) broken_ = true;
+    handle.abandon();
+  }
+  if (broken_) file_.abandon();
+}
+
+hid_t OutputFile::create_group(const std::string& name) {
+  const Handle links = with_groups();
+  const Handle creation = timeless(H5P_GROUP_CREATE);
+  return keep({H5Gcreate2(file_.id(), name.c_str(), links.id(), creation.id(), H5P_DEFAULT), H5Gclose}, "create");
+}
+
+hid_t OutputFile::create_dataset(const DatasetSpec& spec) {
+  const Handle links = with_groups();
+  const Handle creation = timeless(H5P_DATASET_CREATE);
+  const auto dims = with_rows(0, spec.row_shape);
+  const auto largest = with_rows(H5S_UNLIMITED, spec.row_shape);
+  const auto chunk = with_rows(spec.chunk_rows, spec.row_shape);
+  const int rank = static_cast<int>(dims.size());
+  check(H5Pset_chunk(creation.id(), rank, chunk.data()), "create");
+  const Handle space(H5Screate_simple(rank, dims.data(), largest.data()), H5Sclose);
+  const hid_t dataset =
+      keep({H5Dcreate2(file_.id(), spec.name.c_str(), spec.type, space.id(), links.id(), creation.id(), H5P_DEFAULT),
+            H5Dclose},
+           "create");
+  if (!spec.unit.empty()) write_attribute(dataset, "units", spec.unit);
+  if (!spec.description.empty()) write_attribute(dataset, "description", spec.description);
+  return dataset;
+}
+
+void OutputFile::write_static(const std::string& name, hid_t file_type, hid_t memory_type,
+                              const std::vector<hsize_t>& dims, const void* values, const std::string& unit,
+                              const std::string& description) {
+  const Handle links = with_groups();
+  const Handle creation = timeless(H5P_DATASET_CREATE);
+  const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
+  Handle dataset(H5Dcreate2(file_.id(), name.c_str(), file_type, space.id(), links.id(), creation.id(), H5P_DEFAULT),
+                 H5Dclose);
+  check(dataset.id(), "create");
+  hsize_t count = 1;
+  for (const hsize_t extent : dims) count *= extent;
+  if (count > 0) check(H5Dwrite(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write");
+  if (!unit.empty()) write_attribute(dataset.id(), "units", unit);
+  if (!description.empty()) write_attribute(dataset.id(), "description", description);
+  if (!dataset.close()) fail("write", last_error());
+}
+
+void OutputFile::write_attribute(hid_t object, const std::string& name, const Attribute& value) {
+  const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose);
+  const auto put = [&](hid_t file_type, hid_t memory_type, const void* data) {
+    const Handle attribute(H5Acreate2(object, name.c_str(), file_type, scalar.id(), H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose);
+    check(attribute.id(), "create");
+    check(H5Awrite(attribute.id(), memory_type, data), "write");
+  };
+  if (const auto* number = std::get_if<double>(&value)) return put(H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, number);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return put(H5T_STD_I64LE, H5T_NATIVE_INT64, whole);
+  const Handle type = text_type();
+  const char* text = std::get<std::string>(value).c_str();
+  put(type.id(), type.id(), &text);
+}
+
+hid_t OutputFile::create_counter(hid_t object, const std::string& name) {
+  const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose);
+  const hid_t counter = keep(
+      {H5Acreate2(object, name.c_str(), H5T_STD_I64LE, scalar.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose}, "create");
+  set_counter(counter, 0);
+  return counter;
+}
+
+void OutputFile::seal() {
+  flush();
+  code_ = ExitCode::io_error;
+}
+
+void OutputFile::append_rows(hid_t dataset, hid_t memory_type, const std::vector<hsize_t>& row_shape, hsize_t first_row,
+                             hsize_t n_rows, const void* values) {
+  const auto extent = with_rows(first_row + n_rows, row_shape);
+  check(H5Dset_extent(dataset, extent.data()), "extend");
+  const auto count = with_rows(n_rows, row_shape);
+  std::vector<hsize_t> start(count.size(), 0);
+  start[0] = first_row;
+  const Handle target(H5Dget_space(dataset), H5Sclose);
+  check(H5Sselect_hyperslab(target.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), "write");
+  const Handle source(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  check(H5Dwrite(dataset, memory_type, source.id(), target.id(), H5P_DEFAULT, values), "write");
+}
+
+void OutputFile::set_counter(hid_t counter, std::int64_t value) {
+  check(H5Awrite(counter, H5T_NATIVE_INT64, &value), "write");
+}
+
+void OutputFile::flush() {
+  check(H5Fflush(file_.id(), H5F_SCOPE_LOCAL), "write");
+}
+
+void OutputFile::close() {
+  refuse_if_broken();
+  broken_ = true;
+  for (auto& handle : kept_) {
+    if (!handle.close()) fail("write", last_error());
+  }
+  if (!file_.close()) fail("close", last_error());
+  broken_ = false;
+}
+
+void OutputFile::fail(const std::string& action, const std::string& reason) const {
+  const bool creating = code_ == ExitCode::cannot_create;
+  throw Error(
+      code_, "cannot " + action + " the result file (" + reason + ")", path_,
+      creating ? "choose another --out, or free space" : "free space; what was committed before is in the file");
+}
+
+void OutputFile::refuse_if_broken() const {
+  if (!broken_ && file_) return;
+  throw Error(code_, file_ ? "an earlier write failed" : "the result file is closed", path_,
+              "nothing more is written to it");
+}
+
+void OutputFile::require_space(std::uint64_t bytes) const {
+  struct statvfs disk {};
+  const auto folder = std::filesystem::absolute(path_).parent_path();
+  if (statvfs(folder.c_str(), &disk) != 0) return;  // the write itself will tell
+  const std::uint64_t free_bytes = static_cast<std::uint64_t>(disk.f_bavail) * disk.f_frsize;
+  constexpr std::uint64_t metadata_bytes = 256 * 1024;  // more than the index of one commit ever took
+  if (disk.f_blocks > 0 && free_bytes < bytes + metadata_bytes) fail("write", "no space left on the disk");
+}
+
+hid_t OutputFile::keep(Handle handle, const char* action) {
+  check(handle.id(), action);
+  kept_.push_back(std::move(handle));
+  return kept_.back().id();
+}
+
+}  // namespace proto::hdf5
