@@ -18,8 +18,8 @@
 namespace qdem {
 
 struct EngineOptions {
-  int threads = 0;                      ///< OpenMP threads; 0: as many as the environment gives
-  std::function<void()> on_step = {};   ///< called after every step, e.g. to bump a work counter
+  int threads = 0;                     ///< OpenMP threads; 0: as many as the environment gives
+  std::function<void()> on_step = {};  ///< called after every step, e.g. to bump a work counter
 };
 
 /// Motion of the rail foot at the pad cells over one run of steps: linear from `begin` to `end`, values in order of

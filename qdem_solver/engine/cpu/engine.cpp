@@ -1,0 +1,220 @@
+#include "qdem_solver/engine/engine.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "proto/error.hpp"
+#include "qdem_solver/engine/cpu/engine_data.hpp"
+
+namespace qdem {
+
+using cpu::Task;
+using cpu::TaskKind;
+using proto::Span;
+
+namespace {
+
+/// Values that one thread moves at a time in the drift.
+constexpr std::int64_t drift_chunk = 16384;
+
+}  // namespace
+
+Engine::Data::Data(const Model& the_model, EngineOptions the_options)
+    : model(the_model),
+      options(std::move(the_options)),
+      n_threads(options.threads > 0 ? options.threads : omp_get_max_threads()),
+      kernels(cpu::kernels()),
+      tasks(cpu::make_tasks(model)),
+      inverse_mass(cpu::inverse_masses(model)),
+      force(model.n_values, 0.0),
+      slots(tasks.n_slot_values, 0.0),
+      contact(model),
+      pads(model) {}
+
+Engine::Engine(const Model& model, EngineOptions options) : data_(std::make_unique<Data>(model, std::move(options))) {}
+Engine::~Engine() = default;
+
+const ContactStage& Engine::contacts() const {
+  return data_->contact;
+}
+
+void Engine::set_pad_reference(std::vector<double> reference) {
+  data_->pad_reference = std::move(reference);
+}
+
+double Engine::Data::drift(State& state, double dt) {
+  const std::int64_t n_chunks = (model.n_values + drift_chunk - 1) / drift_chunk;
+  double largest = 0.0;
+  bool finite = true;
+#pragma omp parallel for schedule(static) num_threads(n_threads) reduction(max : largest) reduction(&& : finite)
+  for (std::int64_t chunk = 0; chunk < n_chunks; ++chunk) {
+    const std::int64_t first = chunk * drift_chunk;
+    const std::int64_t n = std::min(drift_chunk, model.n_values - first);
+    const auto moved = kernels.drift({dt, n, &state.x[first], &state.v[first], &state.a[first]});
+    largest = std::max(largest, moved.largest_move);
+    finite = finite && std::isfinite(moved.sum);
+  }
+  if (!finite) report_blow_up(state);
+  return std::sqrt(3.0) * largest;  // of a value to that of a node
+}
+
+void Engine::Data::kick(State& state, const Batch& batch, int first, int last, double dt) {
+  const std::int64_t at = batch.offset + std::int64_t{3} * first * batch.lanes;
+  kernels.kick({dt,
+                {model.gravity[0], model.gravity[1], model.gravity[2]},
+                model.local_damping,
+                model.drag_per_s,
+                batch.lanes,
+                last - first,
+                &force[at],
+                &inverse_mass[at],
+                &state.v[at],
+                &state.a[at]});
+}
+
+void Engine::Data::run(State& state, const Task& task, double dt, Span<const double> pad_force) {
+  const Batch& batch = model.batches[task.batch];
+  const Template& shape = model.templates[batch.template_id];
+  const auto material = cpu::material_of(model.materials[batch.material_id]);
+  const double *x = &state.x[batch.offset], *v = &state.v[batch.offset];
+  double* out = &force[batch.offset];
+  if (task.kind == TaskKind::elements) {
+    double* body_slots = &slots[tasks.slot_offsets[task.batch]];
+    kernels.single_forces({cpu::view_of(shape), material, batch.scale[0], task.first, task.last, x, v, body_slots});
+    return;
+  }
+  if (task.kind == TaskKind::nodes) {
+    kernels.gather({shape.adjacency_offsets.data(), shape.adjacency_slots.data(), task.first, task.last,
+                    &slots[tasks.slot_offsets[task.batch]], out});
+    kick(state, batch, task.first, task.last, dt);
+    return;
+  }
+  run_outer(task, pad_force);
+  if (task.kind == TaskKind::outer) return;
+  kernels.lane_forces({cpu::view_of(shape), material, batch.scale.data(), x, v, out});
+  kick(state, batch, 0, shape.n_nodes(), dt);
+}
+
+void Engine::Data::run_outer(const Task& task, Span<const double> pad_force) {
+  const Batch& batch = model.batches[task.batch];
+  double* out = &force[batch.offset];
+  std::fill(out, out + std::int64_t{3} * model.templates[batch.template_id].n_nodes() * batch.lanes, 0.0);
+  for (int lane = 0; lane < batch.lanes; ++lane) {
+    if (batch.bodies[lane] >= 0) contact.gather(batch.bodies[lane], force);
+    if (batch.bodies[lane] >= 0 && batch.bodies[lane] == model.pad_body) pads.add_transposed(pad_force, force);
+  }
+}
+
+void Engine::Data::begin_step(State& state, double dt, double time) {
+  state.time = time;
+  const double move = drift(state, dt);
+  contact.update_candidates(state, move);
+  contact.compute(state, dt);
+}
+
+void Engine::Data::end_step(State& state, double dt, Span<const double> pad_force) {
+#pragma omp parallel num_threads(n_threads)
+  {
+#pragma omp for schedule(dynamic, 1)
+    for (std::size_t i = 0; i < tasks.forces.size(); ++i) run(state, tasks.forces[i], dt, pad_force);
+#pragma omp for schedule(dynamic, 1)
+    for (std::size_t i = 0; i < tasks.nodes.size(); ++i) run(state, tasks.nodes[i], dt, pad_force);
+  }
+}
+
+void Engine::Data::report_blow_up(const State& state) const {
+  for (std::size_t body = 0; body < model.bodies.size(); ++body) {
+    for (int node = 0; node < model.shape(static_cast<int>(body)).n_nodes(); ++node) {
+      const auto b = static_cast<int>(body);
+      if (state.position(model, b, node).allFinite() && state.velocity(model, b, node).allFinite()) continue;
+      std::ostringstream problem, where;
+      problem << "the motion is no longer finite";
+      where << "step " << state.step << ", t = " << state.time << " s, body " << body << " '" << model.bodies[body].name
+            << "', node " << node;
+      throw proto::Error(proto::ExitCode::numerics, problem.str(), where.str(),
+                         "lower [qdem] step_safety, or look for overlapping bodies at the start");
+    }
+  }
+  throw proto::Error(proto::ExitCode::numerics, "the motion overflows", "step " + std::to_string(state.step),
+                     "lower [qdem] step_safety");
+}
+
+std::vector<double> Engine::Data::pad_values(const std::vector<double>& field) const {
+  std::vector<double> values(pads.n_values());
+  pads.apply(field, values);
+  return values;
+}
+
+std::vector<double> Engine::Data::pad_forces(const State& state, const std::vector<double>& u,
+                                             const std::vector<double>& rate) const {
+  std::vector<double> x = pad_values(state.x), x_rate = pad_values(state.v), result(pads.n_values());
+  const std::vector<double> reference = pad_values(pad_reference);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= reference[i];
+  pads.forces(u, rate, x, x_rate, result);
+  return result;
+}
+
+void Engine::Data::add_pad_change(State& state, Span<const double> new_force) {
+  if (pads.n_values() == 0) return;
+  state.pad_force.resize(pads.n_values(), 0.0);
+  std::vector<double> change(pads.n_values());
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] = new_force[i] - state.pad_force[i];
+  const Batch& batch = model.batches[model.bodies[model.pad_body].batch];
+  const std::int64_t n = std::int64_t{3} * model.shape(model.pad_body).n_nodes() * batch.lanes;
+  std::fill(&force[batch.offset], &force[batch.offset] + n, 0.0);
+  pads.add_transposed(change, force);
+  for (std::int64_t i = batch.offset; i < batch.offset + n; ++i) state.a[i] += force[i] * inverse_mass[i];
+  state.pad_force.assign(new_force.begin(), new_force.end());
+}
+
+void Engine::prepare(State& state) {
+  constexpr double farther_than_any_skin = 1e30;
+  data_->contact.update_candidates(state, state.contact.rebuilds == 0 ? farther_than_any_skin : 0.0);
+  data_->contact.compute(state, 0.0);
+  state.pad_force.assign(data_->pads.n_values(), 0.0);
+  data_->end_step(state, 0.0, state.pad_force);
+}
+
+void Engine::advance(State& state, double dt, std::int64_t n_steps) {
+  Data& d = *data_;
+  const std::vector<double> unloaded(d.pads.n_values(), 0.0);
+  d.add_pad_change(state, unloaded);
+  const double start = state.time;
+  for (std::int64_t j = 1; j <= n_steps; ++j) {
+    d.begin_step(state, dt, start + static_cast<double>(j) * dt);
+    d.end_step(state, dt, unloaded);
+    ++state.step;
+    if (d.options.on_step) d.options.on_step();
+  }
+}
+
+PadSums Engine::advance(State& state, double dt, std::int64_t n_steps, const PadDrive& drive) {
+  Data& d = *data_;
+  const std::size_t n = d.pads.n_values();
+  PadSums sums{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
+  std::vector<double> rate(n), u(drive.begin.begin(), drive.begin.end()), next_u(n);
+  for (std::size_t i = 0; i < n; ++i) rate[i] = (drive.end[i] - drive.begin[i]) / (dt * static_cast<double>(n_steps));
+  d.add_pad_change(state, d.pad_forces(state, u, rate));
+  const double start = state.time;
+  for (std::int64_t j = 1; j <= n_steps; ++j) {
+    d.begin_step(state, dt, start + static_cast<double>(j) * dt);
+    const double share = static_cast<double>(j) / static_cast<double>(n_steps);
+    for (std::size_t i = 0; i < n; ++i) next_u[i] = drive.begin[i] + share * (drive.end[i] - drive.begin[i]);
+    const std::vector<double> next_force = d.pad_forces(state, next_u, rate);
+    d.end_step(state, dt, next_force);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double mean = 0.5 * (state.pad_force[i] + next_force[i]);
+      sums.impulse[i] += dt * mean;
+      sums.work[i] += mean * (next_u[i] - u[i]);
+    }
+    state.pad_force = next_force, u = next_u;
+    ++state.step;
+    if (d.options.on_step) d.options.on_step();
+  }
+  return sums;
+}
+
+}  // namespace qdem

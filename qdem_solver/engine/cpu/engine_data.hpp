@@ -1,0 +1,45 @@
+// What the engine holds between steps: scratch only, and the parts it drives.
+#pragma once
+
+#include <vector>
+
+#include "qdem_solver/engine/cpu/tasks.hpp"
+#include "qdem_solver/engine/engine.hpp"
+#include "qdem_solver/engine/pads.hpp"
+
+namespace qdem {
+
+struct Engine::Data {
+  Data(const Model& the_model, EngineOptions the_options);
+
+  /// Positions, predicted velocities and contact forces at `time`; returns with state.v = v_pred.
+  void begin_step(State& state, double dt, double time);
+  /// All other forces and the second half of the kick.
+  void end_step(State& state, double dt, proto::Span<const double> pad_force);
+
+  double drift(State& state, double dt);
+  void run(State& state, const cpu::Task& task, double dt, proto::Span<const double> pad_force);
+  void run_outer(const cpu::Task& task, proto::Span<const double> pad_force);
+  void kick(State& state, const Batch& batch, int first, int last, double dt);
+
+  /// Exchanges the pad forces that state.a holds for others at the same time level.
+  void add_pad_change(State& state, proto::Span<const double> new_force);
+  std::vector<double> pad_values(const std::vector<double>& field) const;
+  std::vector<double> pad_forces(const State& state, const std::vector<double>& u,
+                                 const std::vector<double>& rate) const;
+  [[noreturn]] void report_blow_up(const State& state) const;
+
+  const Model& model;
+  EngineOptions options;
+  int n_threads;
+  const cpu::Kernels& kernels;
+  cpu::TaskList tasks;
+  std::vector<double> inverse_mass;
+  std::vector<double> force;
+  std::vector<double> slots;  ///< element forces of single bodies
+  ContactStage contact;
+  PadOperator pads;
+  std::vector<double> pad_reference;
+};
+
+}  // namespace qdem

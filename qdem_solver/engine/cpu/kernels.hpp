@@ -1,0 +1,95 @@
+// The loops that carry the cost, compiled once per instruction set and chosen at run time.
+//
+// Plain pointers and counts only: the files behind this header are compiled with different instruction sets, so nothing
+// in them may instantiate a template that another file could instantiate as well.
+#pragma once
+
+#include <cstdint>
+
+#include "qdem_solver/physics/quadruple_force.hpp"
+
+namespace qdem::cpu {
+
+/// Topology and reference shape shared by the bodies of a batch.
+struct ShapeView {
+  const int* tets;          ///< [4 n_tets]
+  const double* gradients;  ///< [9 n_tets], rows of Dm^-1
+  const double* volumes;    ///< [n_tets]
+  int n_tets;
+};
+
+/// Eight bodies side by side: x, v, force are the batch's own parts of the arrays, [node][component][8].
+struct LaneForces {
+  ShapeView shape;
+  QuadrupleMaterial material;
+  const double* scale;  ///< [8]
+  const double* x;
+  const double* v;
+  double* force;  ///< added to, element by element in ascending order
+};
+
+/// Elements [first, last) of one body: x, v [node][component].
+struct SingleForces {
+  ShapeView shape;
+  QuadrupleMaterial material;
+  double scale;
+  int first, last;
+  const double* x;
+  const double* v;
+  double* slots;  ///< [n_tets][corner][component]: every element writes its own, nothing is added
+};
+
+/// x += dt (v + dt/2 a), v += dt a over `n` values.
+struct Drift {
+  double dt;
+  std::int64_t n;
+  double* x;
+  double* v;
+  const double* a;
+};
+struct DriftResult {
+  double largest_move;  ///< of one value [m]
+  double sum;           ///< of all |moves|: not finite when any of them is not
+};
+
+/// a_new = force / m + gravity, damped; v += dt/2 (a_new - a); a = a_new, over `n_nodes` nodes of `lanes` lanes.
+struct Kick {
+  double dt;
+  double gravity[3];
+  double local_damping, drag;
+  int lanes;
+  int n_nodes;
+  const double* force;
+  const double* inverse_mass;  ///< 0 for a held component and for spare lanes
+  double* v;
+  double* a;
+};
+
+/// Forces of one body gathered from element slots: force[node] += sum of its slots in ascending order.
+struct Gather {
+  const int* adjacency_offsets;
+  const int* adjacency_slots;
+  int first, last;  ///< nodes
+  const double* slots;
+  double* force;
+};
+
+struct Kernels {
+  const char* instruction_set;
+  void (*lane_forces)(const LaneForces&);
+  void (*single_forces)(const SingleForces&);
+  DriftResult (*drift)(const Drift&);
+  void (*kick)(const Kick&);
+  void (*gather)(const Gather&);
+};
+
+/// The best set that this processor runs.
+const Kernels& kernels();
+
+const Kernels& kernels_base();
+#if defined(__x86_64__)
+const Kernels& kernels_v3();  ///< AVX2 and FMA
+const Kernels& kernels_v4();  ///< AVX-512
+#endif
+
+}  // namespace qdem::cpu

@@ -1,0 +1,92 @@
+// What the engine reports about a state. Not in the hot loop.
+#include <algorithm>
+#include <cmath>
+
+#include "qdem_solver/engine/cpu/engine_data.hpp"
+#include "qdem_solver/physics/quadruple_energy.hpp"
+
+namespace qdem {
+namespace {
+
+double strain_energy(const Model& model, const State& state, int body) {
+  const Template& shape = model.shape(body);
+  const double scale = model.bodies[body].scale;
+  const auto material = cpu::material_of(model.material(body));
+  double sum = 0.0;
+  for (int e = 0; e < shape.n_tets(); ++e) {
+    const Eigen::Vector3d first = state.position(model, body, shape.tets[e][0]);
+    Eigen::Matrix3d dx;
+    for (int k = 0; k < 3; ++k) dx.col(k) = state.position(model, body, shape.tets[e][k + 1]) - first;
+    const Eigen::Matrix3d g = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(shape.gradients[e].data());
+    sum += scale * scale * scale * shape.volumes[e] * energy_density(deformation_gradient(dx, g, scale), material);
+  }
+  return sum;
+}
+
+double kinetic_energy(const Model& model, const State& state, int body) {
+  double sum = 0.0;
+  for (int node = 0; node < model.shape(body).n_nodes(); ++node) {
+    sum += 0.5 * model.node_mass(body, node) * state.velocity(model, body, node).squaredNorm();
+  }
+  return sum;
+}
+
+}  // namespace
+
+Energies Engine::energies(const State& state) const {
+  const Model& model = data_->model;
+  const int n = static_cast<int>(model.bodies.size());
+  std::vector<Energies> parts(n);
+#pragma omp parallel for schedule(dynamic, 8) num_threads(data_->n_threads)
+  for (int body = 0; body < n; ++body) {
+    parts[body] = {kinetic_energy(model, state, body), strain_energy(model, state, body)};
+  }
+  Energies sum;
+  for (const Energies& part : parts) sum.kinetic += part.kinetic, sum.strain += part.strain;
+  return sum;
+}
+
+double Engine::largest_speed(const State& state) const {
+  const Model& model = data_->model;
+  double largest = 0.0;
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
+    for (int node = 0; node < model.shape(body).n_nodes(); ++node) {
+      largest = std::max(largest, state.velocity(model, body, node).squaredNorm());
+    }
+  }
+  return std::sqrt(largest);
+}
+
+double Engine::unbalanced_ratio(const State& state) const {
+  const Model& model = data_->model;
+  std::vector<double> contact(model.n_values, 0.0), pads(model.n_values, 0.0);
+  data_->pads.add_transposed(state.pad_force, pads);
+  double resultants = 0.0, contacts = 0.0;
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
+    data_->contact.gather(body, contact);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int node = 0; node < model.shape(body).n_nodes(); ++node) {
+      const Eigen::Vector3d touch = State::gather(model, contact, body, node);
+      const Eigen::Vector3d weight = model.node_mass(body, node) * model.gravity;
+      const Eigen::Vector3d free = State::gather(model, data_->inverse_mass, body, node);
+      const Eigen::Vector3d all = touch + weight + State::gather(model, pads, body, node);
+      for (int c = 0; c < 3; ++c) sum[c] += free[c] > 0 ? all[c] : 0.0;
+      contacts += touch.norm();
+    }
+    resultants += sum.norm();
+  }
+  return contacts > 0 ? resultants / contacts : (resultants > 0 ? 1.0 : 0.0);
+}
+
+std::vector<double> Engine::pad_displacement(const State& state, const std::vector<double>& reference) const {
+  std::vector<double> x = data_->pad_values(state.x);
+  const std::vector<double> x0 = data_->pad_values(reference);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= x0[i];
+  return x;
+}
+
+std::vector<double> Engine::pad_velocity(const State& state) const {
+  return data_->pad_values(state.v);
+}
+
+}  // namespace qdem

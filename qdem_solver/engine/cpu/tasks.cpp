@@ -1,0 +1,63 @@
+#include "qdem_solver/engine/cpu/tasks.hpp"
+
+#include <algorithm>
+
+namespace qdem::cpu {
+namespace {
+
+constexpr int elements_per_task = 1024;
+constexpr int nodes_per_task = 512;
+
+void cut(std::vector<Task>& tasks, TaskKind kind, int batch, int n, int size) {
+  for (int first = 0; first < n; first += size) tasks.push_back({kind, batch, first, std::min(n, first + size)});
+}
+
+}  // namespace
+
+TaskList make_tasks(const Model& model) {
+  TaskList list;
+  std::vector<Task> batches;
+  for (int b = 0; b < static_cast<int>(model.batches.size()); ++b) {
+    const Template& shape = model.templates[model.batches[b].template_id];
+    if (model.batches[b].lanes == 1) {
+      list.forces.push_back({TaskKind::outer, b});
+      cut(list.forces, TaskKind::elements, b, shape.n_tets(), elements_per_task);
+      cut(list.nodes, TaskKind::nodes, b, shape.n_nodes(), nodes_per_task);
+      list.slot_offsets.push_back(list.n_slot_values);
+      list.n_slot_values += std::int64_t{12} * shape.n_tets();
+    } else {
+      batches.push_back({TaskKind::batch, b, 0, shape.n_tets()});
+      list.slot_offsets.push_back(-1);
+    }
+  }
+  std::stable_sort(batches.begin(), batches.end(), [](const Task& p, const Task& q) { return p.last > q.last; });
+  list.forces.insert(list.forces.end(), batches.begin(), batches.end());
+  return list;
+}
+
+ShapeView view_of(const Template& shape) {
+  return {shape.tets.data()->data(), shape.gradients.data()->data(), shape.volumes.data(), shape.n_tets()};
+}
+
+QuadrupleMaterial material_of(const Material& material) {
+  return {material.lambda(), material.mu(), material.lame_viscosity, material.shear_viscosity};
+}
+
+std::vector<double> inverse_masses(const Model& model) {
+  std::vector<double> result(model.n_values, 0.0);
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
+    for (int node = 0; node < model.shape(body).n_nodes(); ++node) {
+      for (int c = 0; c < 3; ++c) {
+        result[model.index(body, node) + c * model.stride(body)] = 1 / model.node_mass(body, node);
+      }
+    }
+  }
+  for (const Fixity& held : model.fixities) {
+    for (int c = 0; c < 3; ++c) {
+      if (held.mask >> c & 1u) result[model.index(held.body, held.node) + c * model.stride(held.body)] = 0.0;
+    }
+  }
+  return result;
+}
+
+}  // namespace qdem::cpu

@@ -1,0 +1,41 @@
+// How the work of one step is cut into tasks that threads take. The cut depends on the model only, never on the number
+// of threads, and every sum lies inside one task: this is why results do not depend on the threads.
+#pragma once
+
+#include <vector>
+
+#include "qdem_solver/engine/cpu/kernels.hpp"
+#include "qdem_solver/model/model.hpp"
+
+namespace qdem::cpu {
+
+enum class TaskKind {
+  batch,     ///< all of a batch of lanes: elements, contact, kick
+  outer,     ///< contact and pad forces of a single body
+  elements,  ///< some elements of a single body, into its slots
+  nodes,     ///< some nodes of a single body: gather from slots, kick
+};
+
+struct Task {
+  TaskKind kind;
+  int batch;
+  int first = 0, last = 0;  ///< elements or nodes
+};
+
+/// Tasks of the two phases; between them all threads meet.
+struct TaskList {
+  std::vector<Task> forces;  ///< outer, elements and batch, longest first
+  std::vector<Task> nodes;
+  std::vector<std::int64_t> slot_offsets;  ///< per batch: of its first slot value; -1 for batches of lanes
+  std::int64_t n_slot_values = 0;
+};
+
+TaskList make_tasks(const Model& model);
+
+ShapeView view_of(const Template& shape);
+QuadrupleMaterial material_of(const Material& material);
+
+/// 1/m per value, 0 for held components and spare lanes; laid out like State::x.
+std::vector<double> inverse_masses(const Model& model);
+
+}  // namespace qdem::cpu
