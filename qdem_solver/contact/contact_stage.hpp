@@ -11,18 +11,20 @@ namespace qdem {
 
 /// Figures of the contacts at one instant.
 struct ContactReport {
-  std::int64_t candidates = 0;          ///< entries of the candidate list
-  std::int64_t live = 0;                ///< contacts that carry a force
-  double coordination_number = 0.0;     ///< mean number of other bodies that a stone touches [-]
-  double largest_penetration = 0.0;     ///< of the rounded surfaces [m]
-  double elastic_energy = 0.0;          ///< normal and tangential springs [J]
+  std::int64_t candidates = 0;       ///< entries of the candidate list
+  std::int64_t live = 0;             ///< contacts that carry a force
+  double coordination_number = 0.0;  ///< mean number of other bodies that a stone touches [-]
+  double largest_penetration = 0.0;  ///< of the rounded surfaces [m]
+  double elastic_energy = 0.0;       ///< normal and tangential springs [J]
 };
 
 /// Finds contacts and computes their forces. Holds scratch only; all history lives in the State.
 /// Every sum is taken in an order fixed by the candidate list, so results do not depend on the number of threads.
 class ContactStage {
  public:
-  explicit ContactStage(const Model& model);
+  /// `skin` [m]: how much farther than touching the candidate list reaches; 0: the contact law's rounding. The model
+  /// must outlive the stage; its contact law and its planes' velocities may change between calls, nothing else.
+  explicit ContactStage(const Model& model, double skin = 0.0);
   ~ContactStage();
 
   /// Adds `travel` [m], an upper bound of how far any node moved since the last call, to the list's age; rebuilds the
@@ -36,8 +38,8 @@ class ContactStage {
   /// Adds the contact forces on the nodes of `body` to `force` [N], an array laid out like state.x.
   void gather(int body, proto::Span<double> force) const;
 
-  /// Largest sum of contact stiffness over mass, k/m [1/s2], of any node in the current list if all its candidates
-  /// touched; for the stability bound.
+  /// Upper bound of the squared angular frequency [1/s2] that contacts add to the system if all candidates of the
+  /// current list touched: the largest row sum of M^-1 K_contact. For the stability bound.
   double largest_stiffness_over_mass(const State& state) const;
 
   ContactReport report(const State& state) const;

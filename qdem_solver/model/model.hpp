@@ -77,7 +77,8 @@ struct Batch {
   std::array<double, lane_width> scale{};
 };
 
-/// Rigid half-space boundary: bodies stay on the side the normal points to. Moves with `velocity`.
+/// Rigid half-space boundary: bodies stay on the side the normal points to. At State::time t it passes through
+/// point + t * velocity.
 struct Plane {
   std::string name;
   Eigen::Vector3d point, normal, velocity = Eigen::Vector3d::Zero();

@@ -1,0 +1,244 @@
+#include "qdem_solver/contact/contact_stage.hpp"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <set>
+
+#include "proto/error.hpp"
+#include "qdem_solver/contact/candidates.hpp"
+#include "qdem_solver/contact/entry_force.hpp"
+
+namespace qdem {
+namespace {
+
+std::uint64_t list_hash(const ContactState& contact) {
+  const auto keys = XXH3_64bits(contact.keys.data(), contact.keys.size() * sizeof(ContactKey));
+  const auto hash = XXH3_64bits_withSeed(contact.triangles.data(), contact.triangles.size() * sizeof(int), keys);
+  return hash == 0 ? 1 : hash;
+}
+
+/// Slips of the old list at the keys of the new one; a key without history starts unstretched.
+std::vector<Eigen::Vector3d> carried_slip(const ContactState& old, const std::vector<ContactKey>& keys) {
+  std::vector<Eigen::Vector3d> slip(keys.size(), Eigen::Vector3d::Zero());
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    while (i < old.keys.size() && old.keys[i] < keys[k]) ++i;
+    if (i < old.keys.size() && old.keys[i] == keys[k]) slip[k] = old.slip[i];
+  }
+  return slip;
+}
+
+bool is_plane(const ContactKey& key) {
+  return key.body_b < 0;
+}
+bool is_edge_pair(const ContactKey& key) {
+  return key.feature_b >= 0;
+}
+
+}  // namespace
+
+struct ContactStage::Data {
+  const Model& model;
+  double skin;
+  std::vector<BodySkin> skins;
+
+  // Scratch of the list with this id.
+  std::uint64_t list_id = 0;
+  std::vector<EntryForce> forces;
+  std::vector<unsigned char> live;
+  std::vector<double> wake;  ///< age of the list before which an entry cannot touch [m]
+  double last_age = 0.0;
+  std::int64_t last_step = -1;
+  std::vector<std::int64_t> first_of_body;   ///< CSR over keys: entries whose body_a it is
+  std::vector<std::int64_t> second_offsets;  ///< CSR: entries whose body_b it is
+  std::vector<std::int64_t> second_entries;
+
+  Data(const Model& m, double s) : model(m), skin(s), skins(make_skins(m)) {}
+
+  double reach() const { return 2 * model.contact.rounding + skin; }
+
+  /// Bound of how far any node or plane moved since the rebuild [m].
+  double age(const State& state) const {
+    double speed = 0.0;
+    for (const Plane& plane : model.planes) speed = std::max(speed, plane.velocity.norm());
+    return state.contact.travel + speed * std::abs(state.time - state.contact.rebuild_time);
+  }
+
+  void fit_scratch(const ContactState& contact) {
+    if (list_id == contact.list_id && forces.size() == contact.keys.size()) return;
+    const std::size_t n = contact.keys.size();
+    const std::size_t n_bodies = skins.size();
+    forces.resize(n);
+    live.assign(n, 0);
+    wake.assign(n, 0.0);
+    first_of_body.assign(n_bodies + 1, 0);
+    second_offsets.assign(n_bodies + 1, 0);
+    for (const ContactKey& key : contact.keys) {
+      ++first_of_body[key.body_a + 1];
+      if (!is_plane(key)) ++second_offsets[key.body_b + 1];
+    }
+    for (std::size_t b = 0; b < n_bodies; ++b) {
+      first_of_body[b + 1] += first_of_body[b];
+      second_offsets[b + 1] += second_offsets[b];
+    }
+    second_entries.resize(second_offsets.back());
+    auto next = second_offsets;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!is_plane(contact.keys[i])) second_entries[next[contact.keys[i].body_b]++] = static_cast<std::int64_t>(i);
+    }
+    list_id = contact.list_id;
+  }
+
+  /// The wake ages hold along one motion only: a state from elsewhere, such as a restored one, clears them.
+  double follow(const State& state) {
+    const double now = age(state);
+    const bool continues = now >= last_age && (state.step == last_step || state.step == last_step + 1);
+    if (!continues) std::fill(wake.begin(), wake.end(), 0.0);
+    last_age = now, last_step = state.step;
+    return now;
+  }
+
+  EntryForce push(const State& state, std::size_t i, double dt, Eigen::Vector3d& slip) const {
+    const ContactState& contact = state.contact;
+    const ContactKey& key = contact.keys[i];
+    const Motion motion{state.x.data(), state.v.data(), dt};
+    const BodySkin& a = skins[key.body_a];
+    if (is_plane(key)) {
+      return push_on_plane(model.contact, a, key.feature_a, model.planes[~key.body_b], state.time, motion, slip);
+    }
+    const BodySkin& b = skins[key.body_b];
+    if (is_edge_pair(key)) return push_edges(model.contact, a, key.feature_a, b, key.feature_b, motion, slip);
+    const int* first = contact.triangles.data() + contact.triangle_offsets[i];
+    const int* last = contact.triangles.data() + contact.triangle_offsets[i + 1];
+    return push_node(model.contact, a, key.feature_a, b, first, last, motion, slip);
+  }
+};
+
+ContactStage::ContactStage(const Model& model, double skin) {
+  if (!(skin > 0)) skin = model.contact.rounding > 0 ? model.contact.rounding : 1e-3;
+  data_ = std::make_unique<Data>(model, skin);
+}
+ContactStage::~ContactStage() = default;
+
+bool ContactStage::update_candidates(State& state, double travel) {
+  Data& d = *data_;
+  ContactState& contact = state.contact;
+  contact.travel += travel;
+  if (contact.list_id != 0 && d.age(state) <= d.skin / 2) {
+    d.fit_scratch(contact);
+    return false;
+  }
+  CandidateList list = find_candidates(d.model, d.skins, state.x.data(), d.reach(), state.time);
+  contact.slip = carried_slip(contact, list.keys);
+  contact.keys = std::move(list.keys);
+  contact.triangle_offsets = std::move(list.triangle_offsets);
+  contact.triangles = std::move(list.triangles);
+  contact.travel = 0.0;
+  contact.rebuild_time = state.time;
+  ++contact.rebuilds;
+  contact.list_id = list_hash(contact);
+  d.list_id = 0;  // an equal list of an earlier time has other wake ages
+  d.fit_scratch(contact);
+  return true;
+}
+
+void ContactStage::compute(State& state, double dt) {
+  Data& d = *data_;
+  ContactState& contact = state.contact;
+  d.fit_scratch(contact);
+  const double age = d.follow(state);
+  const auto n = static_cast<std::int64_t>(contact.keys.size());
+#pragma omp parallel for schedule(dynamic, 256)
+  for (std::int64_t i = 0; i < n; ++i) {
+    d.live[i] = 0;
+    if (age < d.wake[i]) continue;
+    EntryForce force = d.push(state, i, dt, contact.slip[i]);
+    if (force.live) {
+      d.forces[i] = force;
+      d.live[i] = 1;
+    } else {
+      d.wake[i] = age + force.gap / 2;  // both sides move
+    }
+  }
+}
+
+void ContactStage::gather(int body, proto::Span<double> force) const {
+  const Data& d = *data_;
+  const BodySkin& skin = d.skins[body];
+  const auto add = [&](int node, const Eigen::Vector3d& f) {
+    double* p = force.data() + skin.offset + 3 * skin.stride * node;
+    p[0] += f[0], p[skin.stride] += f[1], p[2 * skin.stride] += f[2];
+  };
+  for (std::int64_t i = d.first_of_body[body]; i < d.first_of_body[body + 1]; ++i) {
+    if (!d.live[i]) continue;
+    for (int k = 0; k < d.forces[i].n_a; ++k) add(d.forces[i].nodes_a[k], d.forces[i].force_a[k]);
+  }
+  for (std::int64_t j = d.second_offsets[body]; j < d.second_offsets[body + 1]; ++j) {
+    const std::int64_t i = d.second_entries[j];
+    if (!d.live[i]) continue;
+    for (int k = 0; k < d.forces[i].n_b; ++k) add(d.forces[i].nodes_b[k], d.forces[i].force_b[k]);
+  }
+}
+
+double ContactStage::largest_stiffness_over_mass(const State& state) const {
+  const Data& d = *data_;
+  const ContactLaw& law = d.model.contact;
+  const ContactState& contact = state.contact;
+  const double k = 1.5 * law.normal_stiffness * std::max(1.0, law.tangential_ratio);
+  std::vector<double> sums(state.x.size(), 0.0);
+  const auto add = [&](const BodySkin& skin, int node, double weight, double side) {
+    sums[skin.offset + 3 * skin.stride * node] += k * weight * side / skin.node_mass(node);
+  };
+  for (std::size_t i = 0; i < contact.keys.size(); ++i) {
+    const ContactKey& key = contact.keys[i];
+    const BodySkin& a = d.skins[key.body_a];
+    if (is_plane(key)) {
+      add(a, key.feature_a, 1.0, 1.0);
+    } else if (is_edge_pair(key)) {
+      const BodySkin& b = d.skins[key.body_b];
+      const EdgeNow ea(a, state.x.data(), key.feature_a), eb(b, state.x.data(), key.feature_b);
+      const LinePair pair = closest_on_lines(ea.x[0], ea.direction(), eb.x[0], eb.direction());
+      const double s = pair.crossing ? pair.s : 0.5, t = pair.crossing ? pair.t : 0.5;
+      const auto &na = a.shape->edges[key.feature_a].nodes, &nb = b.shape->edges[key.feature_b].nodes;
+      add(a, na[0], 1 - s, 2.0), add(a, na[1], s, 2.0), add(b, nb[0], 1 - t, 2.0), add(b, nb[1], t, 2.0);
+    } else {
+      const BodySkin& b = d.skins[key.body_b];
+      const SurfacePoint point = nearest_surface_point(b, state.x.data(), a.at(state.x.data(), key.feature_a),
+                                                       contact.triangles.data() + contact.triangle_offsets[i],
+                                                       contact.triangles.data() + contact.triangle_offsets[i + 1]);
+      add(a, key.feature_a, 1.0, 2.0);
+      for (int c = 0; c < 3; ++c) add(b, b.shape->triangles[point.triangle].nodes[c], point.weights[c], 2.0);
+    }
+  }
+  return sums.empty() ? 0.0 : *std::max_element(sums.begin(), sums.end());
+}
+
+ContactReport ContactStage::report(const State& state) const {
+  const Data& d = *data_;
+  const ContactState& contact = state.contact;
+  ContactReport report;
+  report.candidates = static_cast<std::int64_t>(contact.keys.size());
+  std::vector<std::set<int>> others(d.skins.size());
+  if (d.list_id != contact.list_id) return report;
+  for (std::size_t i = 0; i < contact.keys.size(); ++i) {
+    if (!d.live[i]) continue;
+    ++report.live;
+    report.largest_penetration = std::max(report.largest_penetration, d.forces[i].overlap);
+    report.elastic_energy += d.forces[i].energy;
+    const ContactKey& key = contact.keys[i];
+    if (is_plane(key)) continue;
+    others[key.body_a].insert(key.body_b);
+    others[key.body_b].insert(key.body_a);
+  }
+  int n_stones = 0;
+  for (std::size_t b = 0; b < others.size(); ++b) {
+    if (d.model.bodies[b].kind != BodyKind::stone) continue;
+    ++n_stones;
+    report.coordination_number += static_cast<double>(others[b].size());
+  }
+  if (n_stones > 0) report.coordination_number /= n_stones;
+  return report;
+}
+
+}  // namespace qdem
