@@ -74,17 +74,11 @@ inline EdgeEnd deepest_end(const EdgeNow& a, const EdgeNow& b, const Eigen::Vect
       Eigen::Vector3d w = own.x[end] - other.at(parameter);
       if (side == 1) w = -w;
       const double size = w.norm();
-      const Eigen::Vector3d lateral = w - d * normal;
-      const double l = lateral.norm();
-      const double distance = d >= 0 ? size : d + l;
+      const double distance = d >= 0 ? size : d + (w - d * normal).norm();
       const double overlap = reach - distance;
       if (overlap <= 0 || (best.side >= 0 && overlap <= best.overlap)) continue;
       best.side = side, best.end = end, best.parameter = parameter, best.overlap = overlap;
-      if (d >= 0) {
-        best.normal = size > 1e-12 ? Eigen::Vector3d(w / size) : normal;
-      } else {
-        best.normal = l > 1e-12 ? Eigen::Vector3d((normal + lateral / l)) : normal;
-      }
+      best.normal = size > 1e-12 ? Eigen::Vector3d(w / size) : normal;
     }
   }
   return best;

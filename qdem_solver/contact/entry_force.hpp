@@ -113,7 +113,11 @@ inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_
   for (int k = 0; k < 3; ++k) vp -= wb[k] * vb[k], inverse_mass += wb[k] * wb[k] / b.node_mass(corners[k]);
 
   Touch touch;
-  touch.normal = contact.normal, touch.overlap = contact.facing * contact.overlap;
+  // Edges that passed each other: the line to an end no longer shows the way out, so the share acts on the normal
+  // force.
+  const bool inside = contact.overlap > reach;
+  touch.normal = contact.normal;
+  touch.overlap = (inside ? contact.share() : contact.facing) * contact.overlap;
   touch.effective_mass = 1 / inverse_mass, touch.share = contact.share();
   touch.normal_velocity = contact.normal.dot(vp);
   touch.relative_velocity = va - frame.velocity(vb);
@@ -131,7 +135,7 @@ inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_
   result.energy = 0.5 * law.normal_stiffness *
                   (contact.facing * (contact.overlap * contact.overlap - r * r) +
                    law.tangential_ratio * touch.share * slip.squaredNorm());
-  if (contact.end.side < 0) return result;
+  if (contact.end.side < 0 || inside) return result;
   // Take back what the end carries as a node; no more of it than the law left of the spring's force.
   const double spring = law.normal_stiffness * touch.overlap;
   const double taken = law.normal_stiffness * contact.facing * r * std::min(1.0, force.normal / spring);
