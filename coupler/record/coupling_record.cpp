@@ -1,0 +1,100 @@
+#include "coupler/record/coupling_record.hpp"
+
+namespace coupler {
+namespace {
+
+struct SeatColumn {
+  const char* name;
+  const char* unit;
+  const char* description;
+};
+
+constexpr SeatColumn seat_columns[] = {
+    {"rail_displacement", "m", "rail foot at the window's end, seat axes"},
+    {"rail_velocity", "m/s", "rail foot at the window's end, seat axes"},
+    {"sleeper_displacement", "m", "sleeper at the window's end, seat axes"},
+    {"sleeper_velocity", "m/s", "sleeper at the window's end, seat axes"},
+    {"force_robin", "N", "the rail side's pad force before the carry (equal to force_used without Robin)"},
+    {"force_used", "N", "force on the sleeper whose reaction loaded the rail, window mean"},
+    {"impulse", "N s", "of the pad force on the sleeper over the window"},
+    {"work_rail", "J", "W_rail = -force_used . (u_n+1 - u_n)"},
+    {"work_pad", "J", "W_pad: work of the pad force along the rail's path in the sub-steps"},
+    {"energy_defect", "J", "D = W_rail + W_pad: energy created at the interface in the window"},
+    {"momentum_defect", "N s", "P = H force_used - impulse"},
+    {"momentum_defect_sum", "N s", "sum of P since time 0"},
+};
+
+std::vector<proto::Column> columns(const std::vector<proto::RailSeat>& seats) {
+  std::vector<proto::Column> result{
+      {"window", "1", "window number; -1: the initial values", {}},
+      {"time", "s", "at the window's end", {}},
+      {"energy_defect_sum", "J", "sum of D over all values since time 0", {}},
+      {"qdem_compute", "s", "wall time qdem computed in the window", {}},
+      {"fem_compute", "s", "wall time fem computed in the window", {}},
+  };
+  for (const auto& seat : seats)
+    for (const auto& column : seat_columns)
+      result.push_back({"seats/" + seat.name + "/" + column.name,
+                        column.unit,
+                        column.description,
+                        {static_cast<std::size_t>(seat.n_cells()), 3}});
+  return result;
+}
+
+}  // namespace
+
+CouplingRecord::CouplingRecord(const std::string& path, const std::vector<proto::RailSeat>& seats, double window_s,
+                               const proto::Attributes& attributes)
+    : seats_(seats),
+      window_s_(window_s),
+      momentum_defect_sum_(proto::n_interface_values(seats), 0.0),
+      file_(proto::TimeSeriesFile::create(path, columns(seats), attributes)) {}
+
+void CouplingRecord::put_seats(const std::string& name, const std::vector<double>& values) {
+  std::size_t first = 0;
+  for (const auto& seat : seats_) {
+    const std::size_t n = 3 * static_cast<std::size_t>(seat.n_cells());
+    file_.put("seats/" + seat.name + "/" + name, proto::Span<const double>(values.data() + first, n));
+    first += n;
+  }
+}
+
+void CouplingRecord::add_initial(const InterfaceState& initial) {
+  const std::vector<double> zero(momentum_defect_sum_.size(), 0.0);
+  file_.put("window", -1.0);
+  for (const char* name : {"time", "energy_defect_sum", "qdem_compute", "fem_compute"}) file_.put(name, 0.0);
+  for (const auto& column : seat_columns) put_seats(column.name, zero);
+  put_seats("rail_displacement", initial.rail_displacement);
+  put_seats("rail_velocity", initial.rail_velocity);
+  put_seats("sleeper_displacement", initial.sleeper_displacement);
+  put_seats("sleeper_velocity", initial.sleeper_velocity);
+  file_.end_row();
+}
+
+void CouplingRecord::add(const WindowRecord& record, const WindowAudit& audit) {
+  for (std::size_t i = 0; i < momentum_defect_sum_.size(); ++i) momentum_defect_sum_[i] += audit.momentum_defect[i];
+  file_.put("window", static_cast<double>(record.window));
+  file_.put("time", static_cast<double>(record.window + 1) * window_s_);
+  file_.put("energy_defect_sum", audit.energy_defect_sum);
+  file_.put("qdem_compute", record.explicit_compute_s);
+  file_.put("fem_compute", record.implicit_compute_s);
+  put_seats("rail_displacement", record.rail_displacement);
+  put_seats("rail_velocity", record.rail_velocity);
+  put_seats("sleeper_displacement", record.sleeper_displacement);
+  put_seats("sleeper_velocity", record.sleeper_velocity);
+  put_seats("force_robin", record.force_robin);
+  put_seats("force_used", record.force_used);
+  put_seats("impulse", record.impulse);
+  put_seats("work_rail", audit.work_rail);
+  put_seats("work_pad", audit.work_pad);
+  put_seats("energy_defect", audit.energy_defect);
+  put_seats("momentum_defect", audit.momentum_defect);
+  put_seats("momentum_defect_sum", momentum_defect_sum_);
+  file_.end_row();
+}
+
+void CouplingRecord::close() {
+  file_.close();
+}
+
+}  // namespace coupler

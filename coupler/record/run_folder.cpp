@@ -1,0 +1,73 @@
+#include "coupler/record/run_folder.hpp"
+
+#include <fcntl.h>
+#include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+
+#include "proto/error.hpp"
+
+namespace coupler {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& problem, const std::string& path, const std::string& advice = {}) {
+  throw proto::Error(proto::ExitCode::cannot_create, problem, path, advice);
+}
+
+std::string default_folder(const std::string& case_name) {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char stamp[32];
+  std::strftime(stamp, sizeof stamp, "%Y%m%d-%H%M%S", &local);
+  const std::string base = "runs/" + case_name + "-" + stamp;
+  std::string path = base;
+  for (int i = 2; fs::exists(path); ++i) path = base + "-" + std::to_string(i);
+  return path;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const std::string& out, const std::string& case_name)
+    : path_(fs::absolute(out.empty() ? default_folder(case_name) : out).lexically_normal().string()) {
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error) fail("cannot create the output folder (" + error.message() + ")", path_);
+  // The lock is on the folder itself: it leaves no file behind and ends with the process, however that ends.
+  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) fail(std::string("cannot open the output folder (") + strerror(errno) + ")", path_);
+  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    close(lock_);
+    fail("another run is writing to this folder", path_, "give another --out");
+  }
+  if (!fs::is_empty(path_, error) || error) {
+    close(lock_);
+    fail("the output folder is not empty", path_, "give another --out, or remove what is in it");
+  }
+}
+
+RunFolder::~RunFolder() {
+  close(lock_);
+}
+
+SocketFolder::SocketFolder() {
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  const bool usable = runtime && *runtime && access(runtime, W_OK) == 0 && strlen(runtime) < 60;
+  path_ = std::string(usable ? runtime : "/tmp") + "/qdem-fem-XXXXXX";
+  if (!mkdtemp(path_.data()))
+    fail(std::string("cannot create a folder for the socket (") + strerror(errno) + ")", path_);
+}
+
+SocketFolder::~SocketFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+}  // namespace coupler

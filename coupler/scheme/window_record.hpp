@@ -1,0 +1,27 @@
+// What crossed the interface in one window.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "proto/wire/messages.hpp"
+
+namespace coupler {
+
+/// One value per seat, cell and seat axis in every vector, in this order.
+struct WindowRecord {
+  proto::Phase phase = proto::Phase::march;
+  std::int64_t window = 0;
+  std::vector<double> rail_displacement_begin;  ///< u at t_n [m]
+  std::vector<double> rail_displacement;        ///< u at t_n+1 [m]
+  std::vector<double> rail_velocity;            ///< u' at t_n+1 [m/s]
+  std::vector<double> sleeper_displacement;     ///< x at t_n+1 [m]
+  std::vector<double> sleeper_velocity;         ///< x' at t_n+1 [m/s]
+  std::vector<double> force_robin;  ///< rail side's pad force before the carry; equal to force_used in E1 [N]
+  std::vector<double> force_used;   ///< the force whose reaction loaded the rail [N]
+  std::vector<double> impulse;      ///< of the pad force on the sleeper [N s]
+  std::vector<double> pad_work;     ///< of the pad force along the rail's path, in the sub-steps [J]
+  double implicit_compute_s = 0.0, explicit_compute_s = 0.0;
+};
+
+}  // namespace coupler

@@ -1,0 +1,145 @@
+#include "coupler/scheme/window_scheme.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "proto/error.hpp"
+
+namespace coupler {
+namespace {
+
+namespace field = proto::field;
+
+std::vector<double> take(const proto::Result& result, const std::string& side, const std::string& name, std::size_t n) {
+  if (!result.data.has(name))
+    throw proto::Error(proto::ExitCode::protocol, side + " did not return the field '" + name + "'",
+                       "window " + std::to_string(result.window), "see proto/README.md for the fields of a result");
+  const auto& values = result.data.get(name);
+  if (values.size() != n)
+    throw proto::Error(proto::ExitCode::protocol,
+                       side + " returned " + std::to_string(values.size()) + " values of '" + name + "' instead of " +
+                           std::to_string(n),
+                       "window " + std::to_string(result.window));
+  return values;
+}
+
+void expect_length(const std::vector<double>& values, const char* name, std::size_t n) {
+  if (values.size() != n)
+    throw proto::Error(proto::ExitCode::protocol, "the initial values of '" + std::string(name) + "' have length " +
+                                                      std::to_string(values.size()) + " instead of " +
+                                                      std::to_string(n));
+}
+
+}  // namespace
+
+WindowScheme::WindowScheme(proto::Scheme scheme, double window_s, std::uint32_t sub_cycles,
+                           std::vector<proto::PadLaw> laws)
+    : scheme_(scheme), window_s_(window_s), sub_cycles_(sub_cycles), laws_(std::move(laws)) {
+  const std::vector<double> zero(laws_.size(), 0.0);
+  start({zero, zero, zero, zero});
+  rail_known_ = false;
+}
+
+void WindowScheme::start(const InterfaceState& initial) {
+  const std::size_t n = laws_.size();
+  expect_length(initial.rail_displacement, field::rail_displacement, n);
+  expect_length(initial.rail_velocity, field::rail_velocity, n);
+  expect_length(initial.sleeper_displacement, field::sleeper_displacement, n);
+  expect_length(initial.sleeper_velocity, field::sleeper_velocity, n);
+  state_ = initial;
+  rail_known_ = true;
+  sleeper_acceleration_.assign(n, 0.0);
+  force_carry_.assign(n, 0.0);
+  force_mean_.resize(n);
+  // The mean force "of the window before the first" is the pad's force at the initial values.
+  for (std::size_t i = 0; i < n; ++i)
+    force_mean_[i] = laws_[i].force(state_.rail_displacement[i] - state_.sleeper_displacement[i],
+                                    state_.rail_velocity[i] - state_.sleeper_velocity[i]);
+}
+
+void WindowScheme::predict_sleeper(std::vector<double>& mean_displacement, std::vector<double>& mean_velocity) const {
+  const double h = window_s_;
+  for (std::size_t i = 0; i < laws_.size(); ++i) {
+    const double y = state_.sleeper_velocity[i], a = sleeper_acceleration_[i];
+    mean_displacement.push_back(state_.sleeper_displacement[i] + h * y / 2 + h * h * a / 6);
+    mean_velocity.push_back(y + h * a / 2);
+  }
+}
+
+proto::Advance WindowScheme::implicit_request(proto::Phase phase, std::int64_t window) const {
+  proto::Advance request{phase, window, 0, window_s_, 1, {}};
+  if (scheme_ == proto::Scheme::serial_staggered) {
+    request.data.set(field::force_mean, force_mean_);
+    return request;
+  }
+  std::vector<double> displacement, velocity;
+  predict_sleeper(displacement, velocity);
+  request.data.set(field::sleeper_mean_displacement, std::move(displacement));
+  request.data.set(field::sleeper_mean_velocity, std::move(velocity));
+  request.data.set(field::force_carry, force_carry_);
+  return request;
+}
+
+proto::Advance WindowScheme::explicit_request(const WindowRecord& record,
+                                              const std::vector<double>& velocity_begin) const {
+  proto::Advance request{record.phase, record.window, 0, window_s_, sub_cycles_, {}};
+  request.data.set(field::rail_displacement_begin, record.rail_displacement_begin);
+  request.data.set(field::rail_displacement, record.rail_displacement);
+  request.data.set(field::rail_velocity_begin, velocity_begin);
+  request.data.set(field::rail_velocity, record.rail_velocity);
+  return request;
+}
+
+WindowRecord WindowScheme::advance(proto::Phase phase, std::int64_t window, Sides sides) {
+  const std::size_t n = laws_.size();
+  WindowRecord record;
+  record.phase = phase;
+  record.window = window;
+
+  const auto rail = sides.implicit_side.advance(implicit_request(phase, window));
+  record.implicit_compute_s = rail.compute_s;
+  record.rail_displacement = take(rail, "fem", field::rail_displacement, n);
+  record.rail_velocity = take(rail, "fem", field::rail_velocity, n);
+  record.force_used = take(rail, "fem", field::force_used, n);
+  const bool robin = scheme_ == proto::Scheme::robin_explicit;
+  record.force_robin = robin ? take(rail, "fem", field::force_robin, n) : record.force_used;
+  // The initialise phase begins before any value was exchanged: the rail is taken to have stood where it is found, so
+  // that the pad gets no blow from a displacement that was there all along.
+  record.rail_displacement_begin = rail_known_ ? state_.rail_displacement : record.rail_displacement;
+  const auto velocity_begin = rail_known_ ? state_.rail_velocity : record.rail_velocity;
+
+  const auto sleeper = sides.explicit_side.advance(explicit_request(record, velocity_begin));
+  record.explicit_compute_s = sleeper.compute_s;
+  record.impulse = take(sleeper, "qdem", field::impulse, n);
+  record.pad_work = take(sleeper, "qdem", field::pad_work, n);
+  record.sleeper_displacement = take(sleeper, "qdem", field::sleeper_displacement, n);
+  record.sleeper_velocity = take(sleeper, "qdem", field::sleeper_velocity, n);
+  update(record);
+  return record;
+}
+
+void WindowScheme::update(const WindowRecord& record) {
+  for (std::size_t i = 0; i < laws_.size(); ++i) {
+    sleeper_acceleration_[i] = (record.sleeper_velocity[i] - state_.sleeper_velocity[i]) / window_s_;
+    force_mean_[i] = record.impulse[i] / window_s_;
+    force_carry_[i] = record.force_robin[i] - force_mean_[i];
+  }
+  state_ = {record.rail_displacement, record.rail_velocity, record.sleeper_displacement, record.sleeper_velocity};
+  rail_known_ = true;
+}
+
+std::uint32_t sub_cycles_for(double window_s, std::optional<double> largest_step_s) {
+  if (!largest_step_s) return 1;
+  const double limit = *largest_step_s;
+  // A limit that is a whole fraction of the window but for round-off must not cost one more sub-cycle.
+  const double wanted = limit > 0.0 ? std::ceil(window_s / limit * (1.0 - 1e-12)) : 0.0;
+  if (!(wanted >= 1.0 && wanted <= 1e6))
+    throw proto::Error(proto::ExitCode::numerics,
+                       "the largest stable step of qdem is " + std::to_string(limit) + " s, the window " +
+                           std::to_string(window_s) + " s",
+                       "sub-cycles", "a step between a millionth of the window and infinity is wanted");
+  return static_cast<std::uint32_t>(wanted);
+}
+
+}  // namespace coupler

@@ -1,0 +1,60 @@
+// The explicit coupling schemes: what each side gets in a window, and what is carried to the next.
+//
+// Per window, in this order: implicit side (rail), explicit side (sleeper). Formulas: formulation of this project,
+// coupler/README.md "Schemes".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "coupler/scheme/side.hpp"
+#include "coupler/scheme/window_record.hpp"
+#include "proto/case/coupling.hpp"
+#include "proto/pad/pad_law.hpp"
+
+namespace coupler {
+
+/// Interface values at one instant.
+struct InterfaceState {
+  std::vector<double> rail_displacement, rail_velocity;        ///< [m], [m/s]
+  std::vector<double> sleeper_displacement, sleeper_velocity;  ///< [m], [m/s]
+};
+
+/// Runs windows of R1 (Robin explicit with cumulative carry) or E1 (conventional serial staggered).
+///
+/// The object survives a throw of a side only in the sense that it can be destroyed.
+class WindowScheme {
+ public:
+  /// `laws`: the pad law of every interface value, as its owner registered it. `window_s` > 0, `sub_cycles` >= 1.
+  WindowScheme(proto::Scheme scheme, double window_s, std::uint32_t sub_cycles, std::vector<proto::PadLaw> laws);
+
+  /// Sets the values at time 0 and forgets what was carried. Throws proto::Error (protocol) for a wrong length.
+  void start(const InterfaceState& initial);
+
+  /// Advances both sides through one window and updates what the next one needs; commits nothing.
+  /// Throws proto::Error (protocol) naming side and field when a value is missing or has the wrong length.
+  WindowRecord advance(proto::Phase phase, std::int64_t window, Sides sides);
+
+ private:
+  proto::Advance implicit_request(proto::Phase phase, std::int64_t window) const;
+  proto::Advance explicit_request(const WindowRecord& record, const std::vector<double>& velocity_begin) const;
+  void predict_sleeper(std::vector<double>& mean_displacement, std::vector<double>& mean_velocity) const;
+  void update(const WindowRecord& record);
+
+  proto::Scheme scheme_;
+  double window_s_;
+  std::uint32_t sub_cycles_;
+  std::vector<proto::PadLaw> laws_;
+  InterfaceState state_;
+  std::vector<double> sleeper_acceleration_;  ///< window mean of the last window [m/s^2]
+  std::vector<double> force_carry_;           ///< R1: raw defect of the last window over H [N]
+  std::vector<double> force_mean_;            ///< E1: mean pad force of the last window [N]
+  bool rail_known_ = false;                   ///< false until the rail's displacement was heard for the first time
+};
+
+/// Smallest number of sub-cycles whose step does not exceed `largest_step_s`; 1 when the participant named no limit.
+/// Throws proto::Error (numerics) for a limit that is not positive or needs more than 1e6 sub-cycles.
+std::uint32_t sub_cycles_for(double window_s, std::optional<double> largest_step_s);
+
+}  // namespace coupler

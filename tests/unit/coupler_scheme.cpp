@@ -1,0 +1,163 @@
+// R1 and E1 on the split oscillator with model participants: order, momentum identity, audit.
+#include "coupler/scheme/window_scheme.hpp"
+
+#include "coupler/scheme/audit.hpp"
+#include "coupler/scheme/rest_watch.hpp"
+#include "proto/error.hpp"
+#include "tests/support/oscillator_sides.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace {
+
+using coupler::Audit;
+using coupler::WindowScheme;
+using proto::Scheme;
+
+constexpr double end_time = 4.0;
+
+struct Run {
+  double error = 0.0, energy_defect = 0.0, momentum_defect = 0.0;
+  double raw_defect = 0.0, momentum_sum = 0.0;  // R_n and sum of P at the last window
+  std::int64_t rail_committed = -1;
+};
+
+Run run(Scheme scheme, int n_windows, std::uint32_t sub_cycles) {
+  const tests::Oscillator oscillator;
+  const double h = end_time / n_windows;
+  tests::RailModel rail(oscillator);
+  tests::SleeperModel sleeper(oscillator);
+  WindowScheme windows(scheme, h, sub_cycles, {oscillator.pad});
+  windows.start({{oscillator.u}, {oscillator.v}, {oscillator.x}, {oscillator.y}});
+  Audit audit({1}, h);
+  // The audit of a seat sums three axes; the oscillator moves along the first of one cell, the others stay at rest.
+  const auto padded = [](std::vector<double>& values) { values.resize(3, 0.0); };
+  Run result;
+  coupler::WindowRecord record;
+  for (int n = 0; n < n_windows; ++n) {
+    record = windows.advance(proto::Phase::march, n, {rail, sleeper});
+    result.momentum_sum += h * record.force_used[0] - record.impulse[0];
+    result.raw_defect = h * record.force_robin[0] - record.impulse[0];
+    auto audited = record;
+    for (auto* values : {&audited.rail_displacement_begin, &audited.rail_displacement, &audited.force_used,
+                         &audited.impulse, &audited.pad_work})
+      padded(*values);
+    audit.add(audited);
+  }
+  const auto exact = tests::exact_state(oscillator, end_time);
+  const Eigen::Vector4d found(record.rail_displacement[0], record.rail_velocity[0], record.sleeper_displacement[0],
+                              record.sleeper_velocity[0]);
+  result.error = (found - exact).norm();
+  result.energy_defect = audit.energy_defect_relative();
+  result.momentum_defect = audit.momentum_defect_relative();
+  return result;
+}
+
+double order(Scheme scheme, std::uint32_t sub_cycles) {
+  std::vector<double> steps, errors;
+  for (int n : {160, 320, 640}) {
+    steps.push_back(end_time / n);
+    errors.push_back(run(scheme, n, sub_cycles).error);
+  }
+  return tests::fitted_order(steps, errors);
+}
+
+TEST(WindowScheme, R1IsOfSecondOrder) {
+  EXPECT_TRUE(tests::near_abs(order(Scheme::robin_explicit, 1), 2.0, 0.15));
+  EXPECT_TRUE(tests::near_abs(order(Scheme::robin_explicit, 10), 2.0, 0.15));
+}
+
+TEST(WindowScheme, E1IsReportedAsFirstOrder) {
+  EXPECT_TRUE(tests::near_abs(order(Scheme::serial_staggered, 1), 1.0, 0.15));
+  EXPECT_TRUE(tests::near_abs(order(Scheme::serial_staggered, 10), 1.0, 0.15));
+}
+
+TEST(WindowScheme, R1KeepsTheMomentumUpToTheLastWindowsRawDefect) {
+  const auto r1 = run(Scheme::robin_explicit, 320, 10);
+  EXPECT_TRUE(tests::near_abs(r1.momentum_sum, r1.raw_defect, 1e-13));
+  EXPECT_GT(std::abs(r1.raw_defect), 1e-9);
+}
+
+TEST(WindowScheme, AuditTellsR1FromE1) {
+  const auto r1 = run(Scheme::robin_explicit, 1280, 10);
+  const auto e1 = run(Scheme::serial_staggered, 1280, 10);
+  EXPECT_LT(r1.energy_defect, 1e-3);
+  EXPECT_LT(r1.momentum_defect, 1e-4);
+  EXPECT_GT(e1.energy_defect, 1e-3);
+  EXPECT_GT(e1.momentum_defect, 1e-4);
+}
+
+TEST(WindowScheme, FirstForceOfE1IsThePadsAtTheInitialValues) {
+  struct Rail : tests::RailModel {
+    using RailModel::RailModel;
+    proto::Result advance(const proto::Advance& request) override {
+      force = request.data.get(proto::field::force_mean).at(0);
+      return RailModel::advance(request);
+    }
+    double force = 0.0;
+  };
+  const tests::Oscillator oscillator;
+  Rail rail(oscillator);
+  tests::SleeperModel sleeper(oscillator);
+  WindowScheme windows(Scheme::serial_staggered, 0.01, 1, {oscillator.pad});
+  windows.start({{oscillator.u}, {oscillator.v}, {oscillator.x}, {oscillator.y}});
+  windows.advance(proto::Phase::march, 0, {rail, sleeper});
+  EXPECT_TRUE(tests::near_abs(rail.force, 10.0 * 1.5 + 0.2 * -0.3, 1e-14));
+}
+
+TEST(WindowScheme, NamesTheMissingField) {
+  struct Mute : coupler::Side {
+    proto::Result advance(const proto::Advance&) override { return {}; }
+    void commit(const proto::Commit&) override {}
+  } mute;
+  WindowScheme windows(Scheme::robin_explicit, 0.01, 1, {proto::PadLaw{}});
+  try {
+    windows.advance(proto::Phase::march, 0, {mute, mute});
+    FAIL() << "nothing was thrown";
+  } catch (const proto::Error& error) {
+    EXPECT_EQ(error.code(), proto::ExitCode::protocol);
+    EXPECT_NE(std::string(error.what()).find("fem did not return the field 'rail_displacement'"), std::string::npos);
+  }
+}
+
+TEST(WindowScheme, SubCyclesAreTheSmallestWholeNumber) {
+  EXPECT_EQ(coupler::sub_cycles_for(5e-5, std::nullopt), 1u);
+  EXPECT_EQ(coupler::sub_cycles_for(5e-5, 5e-6), 10u);
+  EXPECT_EQ(coupler::sub_cycles_for(5e-5, 4.9e-6), 11u);
+  EXPECT_EQ(coupler::sub_cycles_for(0.025, 0.0025), 10u);
+  EXPECT_EQ(coupler::sub_cycles_for(5e-5, 1.0), 1u);
+  EXPECT_THROW(coupler::sub_cycles_for(5e-5, 0.0), proto::Error);
+  EXPECT_THROW(coupler::sub_cycles_for(5e-5, 1e-15), proto::Error);
+}
+
+TEST(Audit, SumsVectorsPerSeatAndTakesTheLargestPrefix) {
+  Audit audit({1, 1}, 0.5);
+  coupler::WindowRecord record;
+  record.rail_displacement_begin = {0, 0, 0, 0, 0, 0};
+  record.rail_displacement = {0, 0, 1, 0, 0, 2};
+  record.force_used = {0, 0, -2, 0, 0, -4};
+  record.impulse = {0.3, 0, -1.4, 0, 0, -2};
+  record.pad_work = {0, 0, -1, 0, 0, -8};
+  audit.add(record);  // W = 2 + 8, D = 1 + 0, P = (-0.3, 0, 0.4) and 0
+  std::swap(record.rail_displacement_begin, record.rail_displacement);
+  record.pad_work = {0, 0, 1, 0, 0, 8};
+  record.impulse = {-0.3, 0, -0.6, 0, 0, -2};
+  const auto last = audit.add(record);  // D = -1 + 0 takes the sum back to 0; so does P
+  EXPECT_TRUE(tests::near_abs(last.energy_defect_sum, 0.0, 1e-15));
+  EXPECT_TRUE(tests::near_abs(audit.energy_defect_relative(), 1.0 / 20.0, 1e-15));
+  EXPECT_TRUE(tests::near_abs(audit.momentum_defect_relative(), 0.5 / 4.0, 1e-15));
+}
+
+TEST(RestWatch, WaitsForTheBandAndTheMinimum) {
+  coupler::RestWatch watch(6, 3, 1e-2);
+  EXPECT_FALSE(watch.add({-50.0}));
+  for (int n = 0; n < 4; ++n) EXPECT_FALSE(watch.add({-100.0 - 0.1 * n})) << n;
+  EXPECT_TRUE(watch.add({-100.4}));
+  EXPECT_TRUE(tests::near_rel(watch.change(), 0.3 / 100.4, 1e-9));
+}
+
+TEST(RestWatch, ASwingAboutNothingIsNoRest) {
+  coupler::RestWatch watch(0, 2, 1e-2);
+  for (int n = 0; n < 50; ++n) EXPECT_FALSE(watch.add({n % 2 ? 1.0 : -1.0}));
+}
+
+}  // namespace
