@@ -2,8 +2,9 @@
 //
 // Call order (the coupler leads; the session checks it and answers a break of it with a fault):
 //
-//     describe -> configure -> [advance(initialise) commit]* -> start -> [advance [rollback advance]* commit]* -> finish
-//     save / restore between a commit and the next advance
+//     watch, name, capabilities, build_id -> describe -> configure -> [advance(initialise) commit]* -> start
+//         -> [advance [rollback advance]* commit]* -> finish
+//     save / restore between a commit and the next advance; a restore instead of initialise and start resumes a run
 //
 // serve() owns a communication thread, which holds the socket and sends heartbeats while the solver computes. All
 // functions of the Participant are called on the thread that called serve(). No ZeroMQ or FlatBuffers type is visible.
@@ -35,7 +36,14 @@ class Participant {
  public:
   virtual ~Participant() = default;
 
-  /// Name, capabilities; first call.
+  /// First call: the counter that the heartbeats carry. A solver that works for long outside advance() (reading a bed
+  /// in configure(), writing in commit()) keeps the reference and bumps it there too.
+  virtual void watch(Progress& progress);
+
+  /// Version of the solver for the record, e.g. "qdem_solver 0.1.0".
+  virtual std::string build_id() const;
+
+  /// Name, capabilities.
   virtual std::string name() const = 0;
   virtual Capabilities capabilities() const = 0;
 
@@ -43,7 +51,8 @@ class Participant {
   /// and gives.
   virtual Interface describe() = 0;
 
-  /// Window length, number of windows, pad law. Returns the largest stable step [s] if the solver is explicit.
+  /// Window length, number of windows, pad law; vectors of pad values are empty or as long as a field. Returns the
+  /// largest stable step [s] if the solver is explicit.
   virtual Configured configure(const Configure& request) = 0;
 
   /// Solves one window. `request.phase` = initialise: with artificial damping, clocks standing. A second call for the
@@ -67,18 +76,27 @@ class Participant {
   virtual std::vector<Fact> finish() = 0;
 };
 
-/// Where the coupler is. Filled from the command line and the environment by read_session_options().
+/// Where the coupler is.
 struct SessionOptions {
   std::string endpoint;       ///< e.g. ipc:///run/user/0/qdem-fem-1234/coupler
   std::string session_token;  ///< secret of this run, from the environment variable QDEM_FEM_SESSION_TOKEN
   std::uint64_t case_hash = 0;
   double connect_timeout_s = 30.0;
-  double peer_timeout_s = 15.0;  ///< without any sign of the coupler
+  double peer_timeout_s = 15.0;  ///< without any sign of the coupler's process
 };
 
+/// Options from the `--endpoint` argument and the environment variable QDEM_FEM_SESSION_TOKEN.
+/// Throws proto::Error (usage) when either is missing.
+SessionOptions read_session_options(const std::string& endpoint, std::uint64_t case_hash);
+
 /// Runs the session to its end. Returns after Finish/Bye.
-/// Throws proto::Error: unavailable (no coupler, coupler lost), protocol (a message out of order or malformed, a
-/// rejected handshake, with the coupler's reason), or whatever the participant threw.
+///
+/// Checks what the participant gives as well: a field of wrong length, one that describe() did not list as outgoing
+/// (internal), or a number that is not finite (numerics; the text names field, seat, cell, axis and window).
+/// When the coupler is lost while the participant computes, and its call does not return within 3 s, the process ends
+/// with exit code 69 after a line on stderr: nobody would take the result.
+/// Throws proto::Error: unavailable (no coupler, coupler lost or stopped by a fault), protocol (a message out of order
+/// or malformed, a rejected handshake, with the coupler's reason), or whatever the participant threw.
 void serve(Participant& participant, const SessionOptions& options);
 
 }  // namespace proto

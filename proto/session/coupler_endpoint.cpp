@@ -1,0 +1,258 @@
+#include "proto/session/coupler_endpoint.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <set>
+
+#include "proto/error.hpp"
+#include "proto/session/handshake.hpp"
+#include "proto/session/run_directory.hpp"
+#include "proto/session/sockets.hpp"
+#include "proto/wire/codec.hpp"
+
+namespace proto {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t smallest_limit = 1 << 20;
+constexpr int send_timeout_ms = 5000;
+constexpr int most_frames_at_once = 256;  // so that wait() returns from a flood
+
+double seconds_since(Clock::time_point then) {
+  return std::chrono::duration<double>(Clock::now() - then).count();
+}
+
+/// One connection that was welcomed.
+struct Peer {
+  std::string name;
+  std::string routing_id;
+  int fd = -1;  ///< of the connection, to recognise the monitor's events
+  std::uint64_t received = 0, sent = 0;
+  bool broken = false;    ///< a problem was reported; nothing more is delivered
+  bool finished = false;  ///< said Bye: may close the connection
+  Clock::time_point last_frame = Clock::now(), last_change = last_frame;
+  Heartbeat beat{-1, 0};
+};
+
+/// File descriptor of the connection a frame came by, or -1.
+int connection_of(zmq::message_t& frame) {
+  return zmq_msg_get(frame.handle(), ZMQ_SRCFD);
+}
+
+}  // namespace
+
+struct CouplerEndpoint::Data {
+  Data(const std::string& directory, std::size_t largest_message_bytes, Admission who)
+      : admission(std::move(who)),
+        run_directory(directory),
+        token(random_token()),
+        session(random_session()),
+        context(make_context()),
+        socket(context, zmq::socket_type::router),
+        monitor(context, socket) {
+    SocketSettings settings;
+    settings.largest_message_bytes = static_cast<std::int64_t>(std::max(largest_message_bytes, smallest_limit));
+    set_options(socket, settings);
+    socket.set(zmq::sockopt::sndtimeo, send_timeout_ms);
+    socket.set(zmq::sockopt::router_mandatory, true);
+    socket.set(zmq::sockopt::router_handover, false);  // ids are the socket's own; a name is taken over by nobody
+    address = "ipc://" + run_directory.socket_path();
+    try {
+      socket.bind(address);
+    } catch (const zmq::error_t& error) {
+      throw Error(ExitCode::cannot_create, std::string("the socket cannot be bound: ") + error.what(), address);
+    }
+  }
+
+  Peer* by_name(const std::string& name) {
+    for (auto& [id, peer] : peers)
+      if (peer.name == name) return &peer;
+    return nullptr;
+  }
+
+  void note_connections();
+  void report_lost(std::vector<EndpointEvent>& events);
+  bool receive_one(std::vector<EndpointEvent>& events);
+  void admit(const std::string& id, int fd, const Message& message, std::vector<EndpointEvent>& events);
+  void take(Peer& peer, Message message, std::vector<EndpointEvent>& events);
+  void mark_broken(Peer& peer, ExitCode code, const std::string& problem, std::vector<EndpointEvent>& events);
+  bool transmit(const std::string& id, const Message& message);
+
+  Admission admission;
+  RunDirectory run_directory;
+  std::string address, token;
+  std::uint64_t session;
+  zmq::context_t context;
+  zmq::socket_t socket;
+  SocketMonitor monitor;
+  std::map<std::string, Peer> peers;  ///< by routing id
+  std::set<int> closed;               ///< connections that ended and whose descriptor was not used again
+};
+
+/// Follows the monitor: which descriptors are closed now.
+void CouplerEndpoint::Data::note_connections() {
+  while (const auto event = monitor.next()) {
+    if (event->kind == ZMQ_EVENT_ACCEPTED) {
+      // The descriptor is reused: the peer that had it must not be taken for this connection.
+      for (auto& [id, peer] : peers)
+        if (peer.fd == event->value) peer.fd = -1;
+      closed.erase(event->value);
+    } else if (event->kind == ZMQ_EVENT_DISCONNECTED) {
+      closed.insert(event->value);
+    }
+  }
+}
+
+void CouplerEndpoint::Data::report_lost(std::vector<EndpointEvent>& events) {
+  for (auto& [id, peer] : peers) {
+    const bool lost = peer.fd < 0 || closed.count(peer.fd);
+    if (lost && !peer.finished && !peer.broken)
+      mark_broken(peer, ExitCode::unavailable, "the connection of '" + peer.name + "' is lost", events);
+  }
+}
+
+void CouplerEndpoint::Data::mark_broken(Peer& peer, ExitCode code, const std::string& problem,
+                                        std::vector<EndpointEvent>& events) {
+  peer.broken = true;
+  events.push_back({peer.name, {}, problem, static_cast<int>(code)});
+}
+
+bool CouplerEndpoint::Data::transmit(const std::string& id, const Message& message) {
+  const auto frame = encode(message);
+  while (true) {
+    try {
+      // A router that took the first part takes the second: only the first can block or fail.
+      return socket.send(zmq::buffer(id), zmq::send_flags::sndmore).has_value() &&
+             socket.send(zmq::buffer(frame), zmq::send_flags::none).has_value();
+    } catch (const zmq::error_t& error) {
+      if (error.num() == EHOSTUNREACH) return false;
+      if (error.num() != EINTR) throw;
+    }
+  }
+}
+
+/// Reads one frame, if there is one, and turns it into at most one event.
+bool CouplerEndpoint::Data::receive_one(std::vector<EndpointEvent>& events) {
+  zmq::message_t id_frame, frame, surplus;
+  if (!socket.recv(id_frame, zmq::recv_flags::dontwait)) return false;
+  bool well_formed = id_frame.more() && socket.recv(frame, zmq::recv_flags::dontwait).has_value();
+  for (bool more = frame.more(); more; more = surplus.more()) {
+    well_formed = false;
+    if (!socket.recv(surplus, zmq::recv_flags::dontwait)) break;
+  }
+  const std::string id = id_frame.to_string();
+  const auto found = peers.find(id);
+  if (found != peers.end() && found->second.broken) return true;
+  try {
+    if (!well_formed) throw Error(ExitCode::protocol, "a message is one frame");
+    auto message = decode({static_cast<const std::uint8_t*>(frame.data()), frame.size()});
+    note_connections();
+    if (found == peers.end())
+      admit(id, connection_of(frame), message, events);
+    else
+      take(found->second, std::move(message), events);
+  } catch (const Error& error) {
+    if (found != peers.end())
+      mark_broken(found->second, error.code(), "from '" + found->second.name + "': " + error.what(), events);
+    else
+      events.push_back({"", {}, std::string("from a stranger: ") + error.what(), static_cast<int>(error.code())});
+  }
+  return true;
+}
+
+void CouplerEndpoint::Data::admit(const std::string& id, int fd, const Message& message,
+                                  std::vector<EndpointEvent>& events) {
+  std::vector<std::string> taken;
+  for (const auto& [other, peer] : peers) taken.push_back(peer.name);
+  const auto* hello = std::get_if<Hello>(&message.body);
+  const std::string reason = hello ? why_not_welcome(*hello, admission, token, taken)
+                                   : std::string("the first message must be Hello, not ") + name_of(message.body);
+  if (!reason.empty()) {
+    transmit(id, {0, 1, message.sequence, Reject{reason}});
+    const std::string who = hello ? "'" + hello->name + "'" : "a stranger";
+    events.push_back({"", {}, who + " was rejected: " + reason, static_cast<int>(ExitCode::protocol)});
+    return;
+  }
+  Peer peer;
+  peer.name = hello->name;
+  peer.routing_id = id;
+  peer.fd = fd;
+  peer.received = message.sequence;
+  peer.sent = 1;
+  if (!transmit(id, {session, peer.sent, message.sequence, Welcome{session, admission.heartbeat_s}})) peer.fd = -1;
+  peers[id] = peer;
+  events.push_back({peer.name, message, "", 0});
+}
+
+void CouplerEndpoint::Data::take(Peer& peer, Message message, std::vector<EndpointEvent>& events) {
+  const auto wrong = [&](const std::string& what, std::uint64_t found, std::uint64_t expected) {
+    throw Error(ExitCode::protocol, std::string(name_of(message.body)) + " has the " + what + " " +
+                                        std::to_string(found) + " instead of " + std::to_string(expected));
+  };
+  if (message.session != session) wrong("session", message.session, session);
+  if (message.sequence != peer.received + 1) wrong("sequence number", message.sequence, peer.received + 1);
+  peer.received = message.sequence;
+  peer.last_frame = Clock::now();
+  if (const auto* beat = std::get_if<Heartbeat>(&message.body)) {
+    if (beat->progress != peer.beat.progress || beat->window != peer.beat.window) peer.last_change = peer.last_frame;
+    peer.beat = *beat;
+    return;
+  }
+  peer.last_change = peer.last_frame;
+  peer.finished = peer.finished || std::holds_alternative<Bye>(message.body);
+  events.push_back({peer.name, std::move(message), "", 0});
+}
+
+CouplerEndpoint::CouplerEndpoint(const std::string& directory, std::size_t largest_message_bytes, Admission admission)
+    : data_(std::make_unique<Data>(directory, largest_message_bytes, std::move(admission))) {}
+
+CouplerEndpoint::~CouplerEndpoint() = default;
+
+const std::string& CouplerEndpoint::address() const {
+  return data_->address;
+}
+const std::string& CouplerEndpoint::session_token() const {
+  return data_->token;
+}
+std::uint64_t CouplerEndpoint::session() const {
+  return data_->session;
+}
+
+std::vector<EndpointEvent> CouplerEndpoint::wait(double timeout_s, int extra_fd) {
+  const auto deadline =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
+  std::vector<EndpointEvent> events;
+  while (true) {
+    data_->note_connections();
+    for (int n = 0; n < most_frames_at_once && data_->receive_one(events); ++n) {
+    }
+    data_->report_lost(events);
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    if (!events.empty() || left.count() <= 0) return events;
+    zmq::pollitem_t items[] = {{data_->socket.handle(), 0, ZMQ_POLLIN, 0},
+                               {data_->monitor.handle(), 0, ZMQ_POLLIN, 0},
+                               {nullptr, extra_fd, ZMQ_POLLIN | ZMQ_POLLERR, 0}};
+    poll_sockets(items, left, extra_fd >= 0 ? 3 : 2);
+    if (extra_fd >= 0 && items[2].revents) return events;
+  }
+}
+
+std::uint64_t CouplerEndpoint::send(const std::string& participant, Body body) {
+  auto* peer = data_->by_name(participant);
+  if (!peer) throw Error(ExitCode::unavailable, "'" + participant + "' has not connected");
+  const std::string what = name_of(body);
+  if (!data_->transmit(peer->routing_id, {data_->session, peer->sent + 1, 0, std::move(body)}))
+    throw Error(ExitCode::unavailable, "'" + participant + "' cannot be reached: " + what + " was not sent");
+  peer->last_change = Clock::now();
+  return ++peer->sent;
+}
+
+CouplerEndpoint::Pulse CouplerEndpoint::pulse(const std::string& participant) const {
+  const auto* peer = data_->by_name(participant);
+  if (!peer) return {};
+  return {seconds_since(peer->last_frame), peer->beat.window, peer->beat.progress, seconds_since(peer->last_change)};
+}
+
+}  // namespace proto
