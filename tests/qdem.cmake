@@ -1,2 +1,3 @@
 # Tests of qdem.
 house_test(qdem_elements verification SOURCES verification/qdem_elements.cpp LIBRARIES qdem::engine)
+house_test(qdem_time_step convergence SOURCES convergence/qdem_time_step.cpp LIBRARIES qdem::engine)

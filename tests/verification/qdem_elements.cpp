@@ -96,7 +96,7 @@ TEST(V2, PatchTestSixStrainStates) {
   for (int state_number = 0; state_number < 6; ++state_number) {
     Matrix3d strain = Matrix3d::Zero();
     const int i = state_number < 3 ? state_number : state_number - 3, j = state_number < 3 ? i : (i + 1) % 3;
-    strain(i, j) = strain(j, i) = 1e-3;
+    strain(i, j) = strain(j, i) = 1e-2;
     const Matrix3d f = some_rotation() * (Matrix3d::Identity() + strain);
     qdem::State state = qdem::make_state(model, {{f, {0, 0, 0}}});
     const Matrix3d stress = qdem::cauchy_stress(f, Matrix3d::Zero(), material);
@@ -112,7 +112,7 @@ TEST(V2, PatchTestSixStrainStates) {
     double largest = 0;
     for (const Vector3d& t : traction) largest = std::max(largest, t.norm());
     for (int node = 0; node < shape.n_nodes(); ++node) {
-      EXPECT_LT((force[node] + traction[node]).norm(), 1e-12 * 60e9 / (60e9 * 1e-3) * largest)
+      EXPECT_LT((force[node] + traction[node]).norm(), 1e-12 * largest)
           << "strain state " << state_number << ", node " << node << (inner[node] ? " (inner)" : "");
     }
   }

@@ -171,6 +171,7 @@ void Engine::Data::add_pad_change(State& state, Span<const double> new_force) {
 }
 
 void Engine::prepare(State& state) {
+  omp_set_num_threads(data_->n_threads);
   constexpr double farther_than_any_skin = 1e30;
   data_->contact.update_candidates(state, state.contact.rebuilds == 0 ? farther_than_any_skin : 0.0);
   data_->contact.compute(state, 0.0);
@@ -180,6 +181,7 @@ void Engine::prepare(State& state) {
 
 void Engine::advance(State& state, double dt, std::int64_t n_steps) {
   Data& d = *data_;
+  omp_set_num_threads(d.n_threads);  // the contact stage takes the program's number
   const std::vector<double> unloaded(d.pads.n_values(), 0.0);
   d.add_pad_change(state, unloaded);
   const double start = state.time;
@@ -193,6 +195,7 @@ void Engine::advance(State& state, double dt, std::int64_t n_steps) {
 
 PadSums Engine::advance(State& state, double dt, std::int64_t n_steps, const PadDrive& drive) {
   Data& d = *data_;
+  omp_set_num_threads(d.n_threads);  // the contact stage takes the program's number
   const std::size_t n = d.pads.n_values();
   PadSums sums{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
   std::vector<double> rate(n), u(drive.begin.begin(), drive.begin.end()), next_u(n);

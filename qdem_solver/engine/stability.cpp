@@ -1,0 +1,172 @@
+#include "qdem_solver/engine/stability.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+#include <utility>
+
+namespace qdem {
+namespace {
+
+constexpr int lanczos_steps = 60;
+
+/// M^-1/2 K M^-1/2 of a body of scale 1, K linear elasticity with Lame constants (lambda, mu).
+class ScaledStiffness {
+ public:
+  ScaledStiffness(const Template& shape, double lambda, double mu, double density)
+      : shape_(shape), lambda_(lambda), mu_(mu), inverse_root_(shape.n_nodes()) {
+    for (int i = 0; i < shape.n_nodes(); ++i) inverse_root_[i] = 1 / std::sqrt(density * shape.node_volumes[i]);
+  }
+
+  Eigen::VectorXd operator()(const Eigen::VectorXd& y) const {
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(y.size());
+    for (int e = 0; e < shape_.n_tets(); ++e) {
+      const auto& tet = shape_.tets[e];
+      const Eigen::Matrix3d g =
+          Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(shape_.gradients[e].data());
+      const Eigen::Vector3d first = inverse_root_[tet[0]] * y.segment<3>(3 * tet[0]);
+      Eigen::Matrix3d du;
+      for (int k = 0; k < 3; ++k) du.col(k) = inverse_root_[tet[k + 1]] * y.segment<3>(3 * tet[k + 1]) - first;
+      const Eigen::Matrix3d gradient = du * g;
+      const Eigen::Matrix3d stress =
+          lambda_ * gradient.trace() * Eigen::Matrix3d::Identity() + mu_ * (gradient + gradient.transpose());
+      const Eigen::Matrix3d force = shape_.volumes[e] * stress * g.transpose();
+      for (int k = 0; k < 3; ++k) result.segment<3>(3 * tet[k + 1]) += inverse_root_[tet[k + 1]] * force.col(k);
+      result.segment<3>(3 * tet[0]) -= inverse_root_[tet[0]] * force.rowwise().sum();
+    }
+    return result;
+  }
+
+ private:
+  const Template& shape_;
+  double lambda_, mu_;
+  std::vector<double> inverse_root_;
+};
+
+/// Largest eigenvalue of a symmetric operator: Lanczos estimate plus the residual of its vector, which bounds the error
+/// of the nearest eigenvalue.
+double largest_eigenvalue(const ScaledStiffness& op, Eigen::Index n) {
+  std::mt19937_64 random(20240229);
+  Eigen::VectorXd now(n), before = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) now[i] = static_cast<double>(random() >> 11) * 0x1p-53 - 0.5;
+  now.normalize();
+  const int steps = static_cast<int>(std::min<Eigen::Index>(lanczos_steps, n));
+  Eigen::VectorXd diagonal(steps), off(steps);
+  double beta = 0.0;
+  int done = 0;
+  while (done < steps) {
+    Eigen::VectorXd next = op(now) - beta * before;
+    diagonal[done] = now.dot(next);
+    next -= diagonal[done] * now;
+    beta = off[done] = next.norm();
+    ++done;
+    if (beta < 1e-12 * std::abs(diagonal[0])) break;
+    before = now, now = next / beta;
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal.head(done), off.head(done - 1));
+  return solver.eigenvalues()[done - 1] + beta * std::abs(solver.eigenvectors()(done - 1, done - 1));
+}
+
+double largest_eigenvalue(const Template& shape, double lambda, double mu, double density) {
+  if (lambda == 0 && mu == 0) return 0.0;
+  return largest_eigenvalue(ScaledStiffness(shape, lambda, mu, density), 3 * shape.n_nodes());
+}
+
+Rates operator+(const Rates& p, const Rates& q) {
+  return {p.stiffness + q.stiffness, p.damping + q.damping};
+}
+
+/// Elasticity of a scaled body: stiffness over mass goes with 1/s^2, so does viscosity over mass.
+Rates scaled(const Rates& rates, double scale) {
+  return {rates.stiffness / (scale * scale), rates.damping / (scale * scale)};
+}
+
+/// Largest of each rate over all bodies.
+template <class RatesOf>
+Rates over_bodies(const Model& model, RatesOf rates_of) {
+  std::map<std::pair<int, int>, Rates> known;
+  Rates largest;
+  for (const Body& body : model.bodies) {
+    const auto key = std::make_pair(body.template_id, body.material_id);
+    auto found = known.find(key);
+    if (found == known.end()) {
+      const Rates rates = rates_of(model.templates[body.template_id], model.materials[body.material_id]);
+      found = known.emplace(key, rates).first;
+    }
+    const Rates rates = scaled(found->second, body.scale);
+    largest.stiffness = std::max(largest.stiffness, rates.stiffness);
+    largest.damping = std::max(largest.damping, rates.damping);
+  }
+  return largest;
+}
+
+/// Stiffness: the stage's row sum over every candidate, as if all touched. Dashpots are set by their ratio zeta to the
+/// features' effective mass, so n touching contacts of stiffness over mass q give a row sum 4 zeta n sqrt(q), and the
+/// stage's figure is 2 N q for N candidates: the value below covers n = sqrt(2 N) simultaneous contacts of one
+/// particle.
+Rates contact_rates(const Model& model, const State& state, const ContactStage& contact) {
+  const double stiffness = contact.largest_stiffness_over_mass(state);
+  return {stiffness, 4 * model.contact.damping_ratio * std::sqrt(stiffness)};
+}
+
+}  // namespace
+
+double largest_stable_step(const Rates& rates) {
+  const double k = rates.stiffness, c = rates.damping;
+  if (k <= 0) return c > 0 ? 1 / c : std::numeric_limits<double>::infinity();
+  return 2 / (std::sqrt(c * c + k) + c);  // = 2/k (sqrt(c^2 + k) - c) without cancellation
+}
+
+Rates template_rates(const Template& shape, const Material& material) {
+  return {largest_eigenvalue(shape, material.lambda(), material.mu(), material.density),
+          largest_eigenvalue(shape, material.lame_viscosity, material.shear_viscosity, material.density)};
+}
+
+Rates quadruple_rates(const Template& shape, const Material& material) {
+  double largest = 0.0;
+  for (const auto& gradients : shape.gradients) {
+    const Eigen::Matrix3d g = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(gradients.data());
+    largest = std::max(largest, g.squaredNorm() + g.colwise().sum().squaredNorm());
+  }
+  const double factor = 4 / material.density * largest;
+  return {factor * (material.lambda() + 2 * material.mu()),
+          factor * (material.lame_viscosity + 2 * material.shear_viscosity)};
+}
+
+Rates pad_rates(const Model& model) {
+  if (model.pads.empty()) return {};
+  std::map<int, Rates> nodes;
+  for (const PadCell& cell : model.pads) {
+    double stiffness = 0.0, damping = 0.0;
+    for (const auto& law : cell.laws) {
+      stiffness = std::max(stiffness, law.stiffness), damping = std::max(damping, law.damping);
+    }
+    for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
+      const double share = cell.weights[i] / model.node_mass(model.pad_body, cell.nodes[i]);
+      nodes[cell.nodes[i]].stiffness += share * stiffness, nodes[cell.nodes[i]].damping += share * damping;
+    }
+  }
+  Rates largest;
+  for (const auto& [node, rates] : nodes) {
+    largest.stiffness = std::max(largest.stiffness, rates.stiffness);
+    largest.damping = std::max(largest.damping, rates.damping);
+  }
+  return largest;
+}
+
+StabilityReport stability(const Model& model, const State& state, const ContactStage& contact) {
+  StabilityReport report;
+  report.elements = over_bodies(model, template_rates);
+  report.contacts = contact_rates(model, state, contact);
+  report.pads = pad_rates(model);
+  report.largest_step = largest_stable_step(report.elements + report.contacts + report.pads);
+  report.element_step = largest_stable_step(over_bodies(model, quadruple_rates));
+  return report;
+}
+
+}  // namespace qdem
