@@ -146,8 +146,10 @@ Rates pad_rates(const Model& model) {
     for (const auto& law : cell.laws) {
       stiffness = std::max(stiffness, law.stiffness), damping = std::max(damping, law.damping);
     }
+    double row = 0.0;  // more than one where a point lies a little outside its tetrahedron
+    for (const double weight : cell.weights) row += std::abs(weight);
     for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
-      const double share = cell.weights[i] / model.node_mass(model.pad_body, cell.nodes[i]);
+      const double share = row * std::abs(cell.weights[i]) / model.node_mass(model.pad_body, cell.nodes[i]);
       nodes[cell.nodes[i]].stiffness += share * stiffness, nodes[cell.nodes[i]].damping += share * damping;
     }
   }
