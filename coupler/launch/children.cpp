@@ -103,7 +103,9 @@ struct Children::Data {
   }
 };
 
-std::string process_library_version() { return uv_version_string(); }
+std::string process_library_version() {
+  return uv_version_string();
+}
 
 std::string ChildExit::text() const {
   if (signal == 0) return "exited with code " + std::to_string(code);
@@ -119,6 +121,7 @@ Children::Children(std::string helper) : data_(std::make_unique<Data>()) {
     data_->signals[i].data = data_.get();
     uv_signal_start(&data_->signals[i], Data::on_signal, numbers[i]);
   }
+  poll();  // the loop watches its descriptors only once it has run
 }
 
 Children::~Children() {
@@ -161,7 +164,7 @@ void Children::start(const ChildSpec& spec) {
     require(status, "cannot start " + spec.name + " (" + spec.command.front() + ")");
   }
   child.pid = child.process.pid;
-  poll();  // the loop watches its descriptors only once it has run
+  poll();
 }
 
 int Children::fd() const {

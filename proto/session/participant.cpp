@@ -18,7 +18,9 @@ void converse(Session& session, Connection& connection, const SessionOptions& op
     const Message request = connection.receive();
     if (const auto* advance = std::get_if<Advance>(&request.body)) connection.set_window(advance->window);
     auto answer = session.handle(request.body);
-    if (answer) connection.send(std::move(*answer), request.sequence);
+    // The registration follows the handshake by itself; everything else answers a request.
+    const bool asked = !std::holds_alternative<Welcome>(request.body);
+    if (answer) connection.send(std::move(*answer), asked ? request.sequence : 0);
   }
 }
 

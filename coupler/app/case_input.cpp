@@ -1,0 +1,28 @@
+#include "coupler/app/case_input.hpp"
+
+#include "coupler/launch/program_path.hpp"
+
+namespace coupler {
+
+CaseInput read_case(const std::string& path) {
+  auto file = proto::CaseFile::load(path);
+  // Only the coupler sees the case as a whole; what is inside a solver's section is for that solver to check.
+  file.refuse_unknown_sections({"coupling", "track", "rail_seat", "bed", "qdem", "fem", "wheel", "oscillator"});
+  auto coupling = proto::read_coupling(file);
+  auto seats = proto::read_rail_seats(file);
+  return {std::move(file), std::move(coupling), std::move(seats)};
+}
+
+const char* name_of(proto::Scheme scheme) {
+  return scheme == proto::Scheme::robin_explicit ? "R1" : "E1";
+}
+
+std::vector<proto::ParticipantSpec> find_participants(const CaseInput& input) {
+  std::vector<proto::ParticipantSpec> result{input.coupling.qdem, input.coupling.fem};
+  for (auto& spec : result)
+    spec.command.front() =
+        find_program(spec.command.front(), input.file.path() + ": coupling." + spec.name + "_command");
+  return result;
+}
+
+}  // namespace coupler

@@ -1,0 +1,28 @@
+// What the coupler takes from a case file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "proto/case/case_file.hpp"
+#include "proto/case/coupling.hpp"
+#include "proto/case/rail_seat.hpp"
+
+namespace coupler {
+
+struct CaseInput {
+  proto::CaseFile file;
+  proto::Coupling coupling;
+  std::vector<proto::RailSeat> seats;
+};
+
+/// Reads and checks the coupler's own and the common sections. Throws proto::Error (config, missing_input).
+CaseInput read_case(const std::string& path);
+
+const char* name_of(proto::Scheme scheme);  ///< "R1", "E1"
+
+/// The participants' programs as absolute paths, in the order qdem, fem.
+/// Throws proto::Error (missing_input) naming the key of the program that is not there.
+std::vector<proto::ParticipantSpec> find_participants(const CaseInput& input);
+
+}  // namespace coupler

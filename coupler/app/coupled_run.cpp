@@ -1,0 +1,242 @@
+#include "coupler/app/coupled_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "coupler/launch/program_path.hpp"
+#include "coupler/mapping/interface_check.hpp"
+#include "coupler/report/progress.hpp"
+#include "coupler/scheme/rest_watch.hpp"
+#include "proto/result/provenance.hpp"
+
+namespace coupler {
+namespace {
+
+namespace field = proto::field;
+constexpr double grace_s = 2.0;  // from SIGTERM to SIGKILL
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<std::size_t> cell_counts(const std::vector<proto::RailSeat>& seats) {
+  std::vector<std::size_t> counts;
+  for (const auto& seat : seats) counts.push_back(static_cast<std::size_t>(seat.n_cells()));
+  return counts;
+}
+
+/// Generous bound of one message: names, a few fields, the registered operators.
+std::size_t largest_message(const std::vector<proto::RailSeat>& seats) {
+  return 8 * sizeof(double) * 64 * proto::n_interface_values(seats) + (1u << 20);
+}
+
+Patience patience_of(const proto::Coupling& coupling) {
+  Patience patience;
+  patience.connect_s = coupling.connect_timeout_s;
+  patience.stall_s = coupling.stall_timeout_s;
+  patience.farewell_s = coupling.stall_timeout_s;
+  return patience;
+}
+
+proto::Configure configure_request(const CaseInput& input, const std::string& out,
+                                   const std::vector<proto::PadLaw>& laws) {
+  proto::Configure request;
+  request.window_s = input.coupling.window_s;
+  request.windows = input.coupling.n_windows;
+  request.mode = input.coupling.scheme == proto::Scheme::robin_explicit ? proto::LoadMode::robin
+                                                                        : proto::LoadMode::prescribed_force;
+  request.output_directory = out;
+  for (const auto& law : laws) {
+    request.stiffness.push_back(law.stiffness);
+    request.damping.push_back(law.damping);
+    request.preload.push_back(law.preload);
+    request.tension_cutoff.push_back(law.tension_cutoff);
+  }
+  return request;
+}
+
+/// What the case asks for must have been offered.
+void check_capabilities(const std::string& name, const proto::Capabilities& offered, const proto::Coupling& coupling) {
+  if (coupling.initialise_max_windows > 0 && !offered.initialise)
+    throw ParticipantError(name, proto::ExitCode::config, name + " does not offer the initialise phase", "set-up",
+                           "remove [coupling.initialise] from the case");
+  if (coupling.scheme == proto::Scheme::robin_explicit && name == "fem" && !offered.robin)
+    throw ParticipantError(name, proto::ExitCode::config, name + " does not offer the Robin condition that R1 needs",
+                           "set-up", "set coupling.scheme = \"E1\"");
+}
+
+}  // namespace
+
+CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary)
+    : input_(input),
+      folder_(folder),
+      log_(log),
+      summary_(summary),
+      endpoint_(socket_folder_.path(), largest_message(input.seats), {{"qdem", "fem"}, input.file.hash(), 1.0}),
+      children_(own_path()),
+      supervisor_(children_, endpoint_, patience_of(input.coupling)),
+      qdem_(supervisor_, "qdem"),
+      fem_(supervisor_, "fem"),
+      audit_(cell_counts(input.seats), input.coupling.window_s),
+      begin_(std::chrono::steady_clock::now()) {
+  for (const auto& seat : input.seats) summary_.seats.push_back({seat.name, 0.0, 0.0, 0.0});
+}
+
+CoupledRun::~CoupledRun() {
+  children_.stop(grace_s);
+}
+
+void CoupledRun::start(int n_threads) {
+  for (const auto& spec : find_participants(input_)) {
+    ChildSpec child{spec.name,
+                    spec.command,
+                    {{"QDEM_FEM_SESSION_TOKEN", endpoint_.session_token()}},
+                    folder_.file(spec.name + ".log")};
+    const std::vector<std::string> options{"--case", input_.file.path(), "--endpoint", endpoint_.address(),
+                                           "--out",  folder_.path(),     "--name",     spec.name};
+    child.command.insert(child.command.end(), options.begin(), options.end());
+    if (n_threads > 0) child.environment.push_back({"OMP_NUM_THREADS", std::to_string(n_threads)});
+    supervisor_.add(spec.name, spec.command.front(), child.log_path);
+    children_.start(child);
+    log_.info("started {}: {} (process {})", spec.name, fmt::join(spec.command, " "), children_.pid_of(spec.name));
+  }
+}
+
+proto::Configured CoupledRun::configure(const std::string& name, const proto::Configure& request) {
+  auto answer = supervisor_.await<proto::Configured>(name, supervisor_.send(name, request), true);
+  summary_.facts.insert(summary_.facts.end(), answer.facts.begin(), answer.facts.end());
+  return answer;
+}
+
+void CoupledRun::set_up() {
+  for (const auto& [name, hello] : supervisor_.await_hellos()) {
+    log_.info("{} connected, protocol {}.{}, build {}", name, hello.protocol_major, hello.protocol_minor,
+              hello.build_id);
+    check_capabilities(name, hello.capabilities, input_.coupling);
+  }
+  supervisor_.set_stage("set-up");
+  const auto qdem = supervisor_.await<proto::Interface>("qdem", 0, true);
+  const auto fem = supervisor_.await<proto::Interface>("fem", 0, true);
+  check_interface("qdem", qdem, input_.seats);
+  check_interface("fem", fem, input_.seats);
+  check_outgoing_fields("qdem", qdem,
+                        {field::impulse, field::pad_work, field::sleeper_displacement, field::sleeper_velocity});
+  check_outgoing_fields("fem", fem, {field::rail_displacement, field::rail_velocity, field::force_used});
+  if (input_.coupling.scheme == proto::Scheme::robin_explicit) check_outgoing_fields("fem", fem, {field::force_robin});
+  laws_ = registered_pad("qdem", qdem, input_.seats);
+
+  const auto request = configure_request(input_, folder_.path(), laws_);
+  const auto fem_ticket = supervisor_.send("fem", request);  // both build their models at the same time
+  const auto configured = configure("qdem", request);
+  const auto fem_configured = supervisor_.await<proto::Configured>("fem", fem_ticket, true);
+  summary_.facts.insert(summary_.facts.end(), fem_configured.facts.begin(), fem_configured.facts.end());
+  summary_.largest_step_s = configured.largest_step_s.value_or(0.0);
+  summary_.sub_cycles = sub_cycles_for(input_.coupling.window_s, configured.largest_step_s);
+  scheme_.emplace(input_.coupling.scheme, input_.coupling.window_s, summary_.sub_cycles, laws_);
+  summary_.wall.start_up = seconds_since(begin_);
+  waited_in_start_up_s_ = supervisor_.waited_s();
+  log_.info("configured: {} sub-cycles, largest step {} s", summary_.sub_cycles, summary_.largest_step_s);
+}
+
+void CoupledRun::account(const WindowRecord& record) {
+  summary_.wall.qdem += record.explicit_compute_s;
+  summary_.wall.fem += record.implicit_compute_s;
+}
+
+void CoupledRun::initialise() {
+  const auto& coupling = input_.coupling;
+  if (coupling.initialise_max_windows == 0) return;
+  RestWatch watch(coupling.initialise_min_windows, coupling.initialise_check_windows, coupling.initialise_tolerance);
+  Progress progress("relaxing", coupling.initialise_max_windows, coupling.window_s);
+  bool at_rest = false;
+  for (int n = 0; !at_rest && n < coupling.initialise_max_windows; ++n) {
+    supervisor_.set_stage(fmt::format("initialise window {}", n));
+    const auto record = scheme_->advance(proto::Phase::initialise, n, {fem_, qdem_});
+    fem_.commit({n});
+    qdem_.commit({n});
+    account(record);
+    const auto forces = seat_forces(record, input_.seats, coupling.window_s);
+    at_rest = watch.add(forces);
+    summary_.initialise_windows = n + 1;
+    summary_.initialise_change = watch.change();
+    progress.update(n + 1, fmt::format("seat force {:.1f} N, changing by {:.1e}", forces.front(), watch.change()));
+  }
+  if (!at_rest)
+    throw proto::Error(proto::ExitCode::numerics,
+                       fmt::format("the coupled system did not come to rest: over the last {} of {} windows the seat "
+                                   "force still changed by {:.2e} of itself, {:.2e} is wanted",
+                                   coupling.initialise_check_windows, coupling.initialise_max_windows, watch.change(),
+                                   coupling.initialise_tolerance),
+                       "initialise", "raise coupling.initialise.max_windows");
+  log_.info("at rest after {} windows, the seat force changing by {:.2e}", summary_.initialise_windows, watch.change());
+}
+
+void CoupledRun::take_initial_values() {
+  supervisor_.set_stage("start");
+  const auto fem_ticket = supervisor_.send("fem", proto::Start{});
+  const auto qdem_ticket = supervisor_.send("qdem", proto::Start{});
+  const auto rail = supervisor_.await<proto::Result>("fem", fem_ticket);
+  const auto sleeper = supervisor_.await<proto::Result>("qdem", qdem_ticket);
+  const InterfaceState initial{rail.data.get(field::rail_displacement), rail.data.get(field::rail_velocity),
+                               sleeper.data.get(field::sleeper_displacement),
+                               sleeper.data.get(field::sleeper_velocity)};
+  scheme_->start(initial);
+  auto attributes = proto::provenance("coupler", input_.file.name(), input_.file.hash(), input_.file.text());
+  attributes.emplace_back("scheme", std::string(name_of(input_.coupling.scheme)));
+  attributes.emplace_back("window_s", input_.coupling.window_s);
+  attributes.emplace_back("sub_cycles", static_cast<std::int64_t>(summary_.sub_cycles));
+  for (const auto& fact : summary_.facts)
+    attributes.emplace_back(fact.key, fact.number ? proto::Attribute(*fact.number) : proto::Attribute(fact.text));
+  record_.emplace(folder_.file("coupling.h5"), input_.seats, input_.coupling.window_s, attributes);
+  record_->add_initial(initial);
+}
+
+void CoupledRun::add_window(const WindowRecord& record) {
+  record_->add(record, audit_.add(record));
+  update_figures(summary_.seats, record, input_.seats, input_.coupling.window_s);
+  summary_.n_windows = record.window + 1;
+  summary_.energy_defect_relative = audit_.energy_defect_relative();
+  summary_.momentum_defect_relative = audit_.momentum_defect_relative();
+}
+
+bool CoupledRun::march() {
+  take_initial_values();
+  supervisor_.set_interruptible(false);
+  const auto n_windows = static_cast<std::int64_t>(input_.coupling.n_windows);
+  Progress progress("marching", n_windows, input_.coupling.window_s);
+  for (std::int64_t n = 0; n < n_windows; ++n) {
+    if (supervisor_.stop_requested()) return false;
+    supervisor_.set_stage(fmt::format("window {}", n));
+    const auto record = scheme_->advance(proto::Phase::march, n, {fem_, qdem_});
+    account(record);
+    add_window(record);
+    fem_.commit({n});
+    qdem_.commit({n});
+    progress.update(n + 1);
+  }
+  return true;
+}
+
+void CoupledRun::finish() {
+  const auto facts = supervisor_.finish();
+  summary_.facts.insert(summary_.facts.end(), facts.begin(), facts.end());
+  if (record_) record_->close();
+  update_wall_time();
+}
+
+void CoupledRun::update_wall_time() {
+  auto& wall = summary_.wall;
+  wall.total = seconds_since(begin_);
+  const double waited = supervisor_.waited_s() - waited_in_start_up_s_;
+  wall.waiting = std::max(0.0, waited - wall.qdem - wall.fem);
+  wall.coupler = std::max(0.0, wall.total - wall.start_up - waited);
+}
+
+void CoupledRun::abandon(int code, const std::string& text) noexcept {
+  supervisor_.abandon(code, text);
+  children_.stop(grace_s);
+  update_wall_time();
+}
+
+}  // namespace coupler

@@ -1,0 +1,71 @@
+// One coupled run from the start of the participants to their end.
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupler/app/case_input.hpp"
+#include "coupler/launch/children.hpp"
+#include "coupler/record/coupling_record.hpp"
+#include "coupler/record/run_folder.hpp"
+#include "coupler/record/summary.hpp"
+#include "coupler/scheme/audit.hpp"
+#include "coupler/scheme/window_scheme.hpp"
+#include "coupler/supervise/remote_side.hpp"
+#include "coupler/supervise/supervisor.hpp"
+
+namespace coupler {
+
+/// The steps of a run, to be called in the order in which they are declared. `summary` is filled as the run goes and
+/// is valid at any time, also after a throw. Every step throws proto::Error or Interrupted.
+class CoupledRun {
+ public:
+  CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary);
+  /// Ends whatever still runs.
+  ~CoupledRun();
+
+  /// Starts both participants and hands them endpoint and token.
+  void start(int n_threads);
+  /// Handshake, check of the interface, configuration, sub-cycles.
+  void set_up();
+  /// Coupled windows until the seat forces rest; nothing when the case has no initialise phase.
+  void initialise();
+  /// Initial values, then the windows of the case. Returns false when the user stopped it between two windows.
+  bool march();
+  /// Closes participants and record.
+  void finish();
+
+  /// Tells the participants why, and ends them. Never throws.
+  void abandon(int code, const std::string& text) noexcept;
+
+  int stop_signal() const { return children_.stop_signal(); }
+
+ private:
+  proto::Configured configure(const std::string& name, const proto::Configure& request);
+  void take_initial_values();
+  void add_window(const WindowRecord& record);
+  void account(const WindowRecord& record);
+  void update_wall_time();
+
+  const CaseInput& input_;
+  const RunFolder& folder_;
+  spdlog::logger& log_;
+  Summary& summary_;
+  SocketFolder socket_folder_;
+  proto::CouplerEndpoint endpoint_;
+  Children children_;
+  Supervisor supervisor_;
+  RemoteSide qdem_, fem_;
+  Audit audit_;
+  std::vector<proto::PadLaw> laws_;
+  std::optional<WindowScheme> scheme_;
+  std::optional<CouplingRecord> record_;
+  std::chrono::steady_clock::time_point begin_;
+  double waited_in_start_up_s_ = 0.0;
+};
+
+}  // namespace coupler

@@ -1,0 +1,63 @@
+// coupler: starts the participants of a case, keeps them in step, audits the interface, writes the record.
+#include <fmt/format.h>
+#include <signal.h>
+#include <spdlog/version.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "coupler/app/options.hpp"
+#include "coupler/launch/children.hpp"
+#include "coupler/launch/exec_child.hpp"
+#include "proto/error.hpp"
+#include "proto/result/provenance.hpp"
+#include "proto/wire/codec.hpp"
+
+namespace {
+
+std::string version_text() {
+  return fmt::format("coupler {} ({})\nprotocol {}.{}, schema {:016x}\nlibuv {}, spdlog {}.{}.{}, fmt {}, CLI11 {}",
+                     proto::project_version(), proto::source_description(), proto::protocol_major,
+                     proto::protocol_minor, proto::schema_hash(), coupler::process_library_version(), SPDLOG_VER_MAJOR,
+                     SPDLOG_VER_MINOR, SPDLOG_VER_PATCH, FMT_VERSION, CLI11_VERSION);
+}
+
+int command_line(int argc, char** argv) {
+  CLI::App app("Coupled simulation of ballasted track: runs a case with its participants.", "coupler");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version_text());
+  coupler::RunOptions options;
+  auto* run = app.add_subcommand("run", "run a case");
+  run->add_option("CASE", options.case_path, "case file (TOML)")->required();
+  run->add_option("--out", options.out, "output folder, new or empty (default: runs/<case>-<time>)");
+  run->add_option("--scheme", options.scheme, "coupling scheme instead of the case's")
+      ->check(CLI::IsMember({"R1", "E1"}));
+  run->add_option("--threads", options.n_threads, "threads of each participant (sets OMP_NUM_THREADS)")
+      ->check(CLI::Range(1, 4096));
+  auto* check = app.add_subcommand("check", "validate a case without running it");
+  check->add_option("CASE", options.case_path, "case file (TOML)")->required();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
+  }
+  return run->parsed() ? coupler::run_case(options) : coupler::check_case(options.case_path);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  signal(SIGPIPE, SIG_IGN);
+  try {
+    if (argc > 1 && argv[1] == std::string(coupler::exec_child_subcommand))
+      coupler::exec_child(std::vector<std::string>(argv + 1, argv + argc));
+    return command_line(argc, argv);
+  } catch (const proto::Error& error) {
+    fmt::print(stderr, "coupler: {}\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "coupler: internal error: {}\n", error.what());
+    return static_cast<int>(proto::ExitCode::internal);
+  }
+}

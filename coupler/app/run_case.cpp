@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+#include <spdlog/sinks/basic_file_sink.h>
+
+#include <cstdio>
+
+#include "coupler/app/coupled_run.hpp"
+#include "coupler/app/options.hpp"
+#include "coupler/report/run_table.hpp"
+#include "proto/result/provenance.hpp"
+#include "proto/result/text_file.hpp"
+
+namespace coupler {
+namespace {
+
+constexpr int interrupted_base = 128;  // as shells report it: 128 + signal
+
+/// run.log of one run; every line is on the disk when the call returns.
+class RunLog {
+ public:
+  explicit RunLog(const std::string& path) : logger_("run", std::make_shared<spdlog::sinks::basic_file_sink_st>(path)) {
+    logger_.set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
+    logger_.flush_on(spdlog::level::info);
+  }
+  spdlog::logger& logger() { return logger_; }
+
+ private:
+  spdlog::logger logger_;
+};
+
+Summary blank_summary(const CaseInput& input) {
+  Summary summary;
+  summary.status = "failed";
+  summary.case_name = input.file.name();
+  summary.case_hash = fmt::format("{:016x}", input.file.hash());
+  summary.scheme = name_of(input.coupling.scheme);
+  summary.window_s = input.coupling.window_s;
+  summary.n_windows_wanted = static_cast<std::int64_t>(input.coupling.n_windows);
+  return summary;
+}
+
+/// The whole run; fills the summary. Returns the exit code, throws what ended it early.
+int carry_out(CoupledRun& run, Summary& summary, int n_threads) {
+  run.start(n_threads);
+  run.set_up();
+  run.initialise();
+  const bool complete = run.march();
+  run.finish();
+  summary.status = complete ? "ok" : "interrupted";
+  if (complete) return 0;
+  summary.failure = {"stopped by signal " + std::to_string(run.stop_signal()), "user",
+                     interrupted_base + run.stop_signal()};
+  return summary.failure.exit_code;
+}
+
+int run_guarded(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary, int n_threads) {
+  CoupledRun run(input, folder, log, summary);
+  const auto give_up = [&](const std::string& culprit, int code, const std::string& text) {
+    summary.failure = {text, culprit, code};
+    run.abandon(code, text);
+  };
+  try {
+    return carry_out(run, summary, n_threads);
+  } catch (const Interrupted& stop) {
+    give_up("user", interrupted_base + stop.signal(), "stopped by signal " + std::to_string(stop.signal()));
+    summary.status = "interrupted";
+    return summary.failure.exit_code;
+  } catch (const ParticipantError& error) {
+    give_up(error.participant(), static_cast<int>(error.code()), error.what());
+    throw;
+  } catch (const proto::Error& error) {
+    give_up("coupler", static_cast<int>(error.code()), error.what());
+    throw;
+  }
+}
+
+}  // namespace
+
+int run_case(const RunOptions& options) {
+  auto input = read_case(options.case_path);
+  if (!options.scheme.empty())
+    input.coupling.scheme = options.scheme == "R1" ? proto::Scheme::robin_explicit : proto::Scheme::serial_staggered;
+  find_participants(input);  // before a folder is made for a run that cannot start
+  const RunFolder folder(options.out, input.file.name());
+  proto::write_text_file(folder.file("case.toml"), input.file.text());
+  RunLog log(folder.file("run.log"));
+  log.logger().info("coupler {} ({}), case {} {:016x}, scheme {}", proto::project_version(),
+                    proto::source_description(), input.file.path(), input.file.hash(), name_of(input.coupling.scheme));
+  auto summary = blank_summary(input);
+  const auto write_summary = [&] { proto::write_text_file(folder.file("summary.json"), summary_text(summary)); };
+  try {
+    const int code = run_guarded(input, folder, log.logger(), summary, options.n_threads);
+    write_summary();
+    log.logger().info("{}: {} windows", summary.status, summary.n_windows);
+    fmt::print("{}", run_table(summary, folder.path()));
+    return code;
+  } catch (const proto::Error& error) {
+    log.logger().error("{}", error.what());
+    write_summary();
+    throw;
+  }
+}
+
+}  // namespace coupler

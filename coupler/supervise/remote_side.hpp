@@ -1,0 +1,24 @@
+// A participant in another process, as a coupling scheme sees it.
+#pragma once
+
+#include <string>
+
+#include "coupler/scheme/side.hpp"
+#include "coupler/supervise/supervisor.hpp"
+
+namespace coupler {
+
+/// Sends Advance and Commit; checks that the result is of the window that was asked for.
+class RemoteSide : public Side {
+ public:
+  RemoteSide(Supervisor& supervisor, std::string name) : supervisor_(supervisor), name_(std::move(name)) {}
+
+  proto::Result advance(const proto::Advance& request) override;
+  void commit(const proto::Commit& request) override { supervisor_.send(name_, request); }
+
+ private:
+  Supervisor& supervisor_;
+  std::string name_;
+};
+
+}  // namespace coupler
