@@ -1,8 +1,11 @@
 #include "proto/result/output_file.hpp"
 
-#include <sys/statvfs.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include <filesystem>
+#include <cerrno>
+#include <cstring>
 
 namespace proto::hdf5 {
 namespace {
@@ -51,7 +54,11 @@ OutputFile::~OutputFile() {
     if (!broken_ && !handle.close()) broken_ = true;
     handle.abandon();
   }
-  if (broken_) file_.abandon();
+  if (broken_) {
+    file_.abandon();
+  } else if (file_ && file_.close()) {
+    give_back_blocks();
+  }
 }
 
 hid_t OutputFile::create_group(const std::string& name) {
@@ -151,7 +158,13 @@ void OutputFile::close() {
     if (!handle.close()) fail("write", last_error());
   }
   if (!file_.close()) fail("close", last_error());
+  give_back_blocks();
   broken_ = false;
+}
+
+void OutputFile::give_back_blocks() const {
+  struct stat status {};
+  if (::stat(path_.c_str(), &status) == 0) static_cast<void>(::truncate(path_.c_str(), status.st_size));
 }
 
 void OutputFile::fail(const std::string& action, const std::string& reason) const {
@@ -167,13 +180,38 @@ void OutputFile::refuse_if_broken() const {
               "nothing more is written to it");
 }
 
-void OutputFile::require_space(std::uint64_t bytes) const {
-  struct statvfs disk {};
-  const auto folder = std::filesystem::absolute(path_).parent_path();
-  if (statvfs(folder.c_str(), &disk) != 0) return;  // the write itself will tell
-  const std::uint64_t free_bytes = static_cast<std::uint64_t>(disk.f_bavail) * disk.f_frsize;
-  constexpr std::uint64_t metadata_bytes = 256 * 1024;  // more than the index of one commit ever took
-  if (disk.f_blocks > 0 && free_bytes < bytes + metadata_bytes) fail("write", "no space left on the disk");
+void OutputFile::reserve(std::uint64_t bytes) {
+  constexpr std::uint64_t metadata_bytes = 256 * 1024;  // more than the index of one commit takes
+  constexpr std::uint64_t slice_bytes = 4 * 1024 * 1024;
+  haddr_t end = 0;
+  check(H5Fget_eoa(file_.id(), &end), "write");
+  const std::uint64_t wanted = end + bytes + metadata_bytes;
+  if (wanted <= reserved_end_) return;
+  // The file keeps its length; the blocks behind its end are given back by close().
+  const auto set_aside = [&](std::uint64_t to) {
+    return ::fallocate(descriptor(), FALLOC_FL_KEEP_SIZE, static_cast<off_t>(end), static_cast<off_t>(to - end)) == 0;
+  };
+  if (set_aside(wanted + slice_bytes)) {
+    reserved_end_ = wanted + slice_bytes;
+  } else if (set_aside(wanted)) {
+    reserved_end_ = wanted;
+  } else if (errno == ENOSPC || errno == EDQUOT) {
+    fail("write", std::strerror(errno));
+  }  // else a file system without reservation: the write itself will tell
+}
+
+void OutputFile::restore_length() const noexcept {
+  haddr_t end = 0;
+  if (H5Fget_eoa(file_.id(), &end) < 0) return;
+  struct stat status {};
+  if (::stat(path_.c_str(), &status) != 0 || status.st_size >= static_cast<off_t>(end)) return;
+  static_cast<void>(::truncate(path_.c_str(), static_cast<off_t>(end)));  // a hole needs no blocks
+}
+
+int OutputFile::descriptor() const {
+  int* number = nullptr;
+  check(H5Fget_vfd_handle(file_.id(), H5P_DEFAULT, reinterpret_cast<void**>(&number)), "write");
+  return *number;
 }
 
 hid_t OutputFile::keep(Handle handle, const char* action) {

@@ -44,13 +44,14 @@ class OutputFile {
   /// Ends the set-up: flushes; later failures are io_error.
   void seal();
 
-  /// Runs `action`, the writing of about `bytes`, unless an earlier one failed. A throw from it closes this file for
-  /// good. Checks first that the disk has room, because HDF5 cannot recover from a full one.
+  /// Runs `action`, the writing of about `bytes`, unless an earlier one failed. After a throw from it nothing is
+  /// written to this file any more. Disk blocks are reserved first, because HDF5 cannot recover from a full disk.
   template <class Action>
   void write(std::uint64_t bytes, Action&& action) {
     refuse_if_broken();
+    const GiveUp give_up{*this};
     broken_ = true;
-    require_space(bytes);
+    reserve(bytes);
     action();
     broken_ = false;
   }
@@ -75,12 +76,25 @@ class OutputFile {
  private:
   [[noreturn]] void fail(const std::string& action, const std::string& reason) const;
   void refuse_if_broken() const;
-  void require_space(std::uint64_t bytes) const;
+  /// Throws (io_error) when the disk has no room for `bytes` more.
+  void reserve(std::uint64_t bytes);
+  /// After a failure: makes the file as long as its header says, or HDF5 would refuse to open it.
+  void restore_length() const noexcept;
+
+  struct GiveUp {
+    OutputFile& file;
+    ~GiveUp() {
+      if (file.broken_) file.restore_length();
+    }
+  };
+  void give_back_blocks() const;
+  int descriptor() const;
   hid_t keep(Handle handle, const char* action);
 
   std::string path_;
   ExitCode code_ = ExitCode::cannot_create;
   bool broken_ = false;
+  std::uint64_t reserved_end_ = 0;  // of the blocks that the disk has set aside
   Handle file_;
   std::vector<Handle> kept_;
 };

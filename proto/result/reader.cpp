@@ -22,7 +22,10 @@ Handle open_file(const std::string& path) {
   hdf5::start_library();
   if (!std::filesystem::exists(path)) throw Error(ExitCode::missing_input, "no such result file", path);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_file_locking(access.id(), false, true);
+  // As HDF5 1.10 itself opens the source of a virtual dataset: with another way of locking or closing, a view of a file
+  // that this process has open reads as zeros.
+  H5Pset_file_locking(access.id(), true, true);
+  H5Pset_fclose_degree(access.id(), H5F_CLOSE_WEAK);
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (!file) throw Error(ExitCode::bad_data, "not a readable HDF5 file (" + hdf5::last_error() + ")", path);
   return file;

@@ -22,9 +22,15 @@ struct ViewedField {
 /// Name of the view of one field and step inside the views file.
 std::string view_name(const ViewedField& field, std::uint64_t step);
 
-/// Writes `path` whole: views of `source` (a file name relative to the folder of `path`) for `n_steps` steps, and, if
-/// not empty, the dataset /Topology. Throws proto::Error (cannot_create, io_error).
+/// The cells as a sidecar lists them: a table of nodes over the file's connectivity, or numbers of its own.
+struct ViewedTopology {
+  std::uint64_t n_cells = 0, n_nodes = 0;  ///< of a mesh of one cell type; a view of /VTKHDF/Connectivity
+  std::vector<std::int64_t> mixed;         ///< of a mesh of several: cell codes and nodes, stored
+};
+
+/// Writes `path` whole: views of `source` (a file name relative to the folder of `path`) for `n_steps` steps, and the
+/// dataset /Topology. Throws proto::Error (cannot_create, io_error).
 void write_views(const std::string& path, const std::string& source, const std::vector<ViewedField>& fields,
-                 std::uint64_t n_steps, const std::vector<std::int64_t>& topology);
+                 std::uint64_t n_steps, const ViewedTopology& topology);
 
 }  // namespace proto::hdf5

@@ -16,6 +16,7 @@ namespace proto {
 namespace {
 
 using hdf5::ViewedField;
+using hdf5::ViewedTopology;
 
 /// Everything the sidecar says about a result file.
 struct Outline {
@@ -70,28 +71,32 @@ const char* xdmf_name(CellType type) {
 }
 
 /// The numbers of XDMF for cells in a mixed topology; vertices and lines carry their number of nodes too.
-void append_mixed_cell(CellType type, std::vector<std::int64_t>& topology) {
+void append_mixed_cell(CellType type, std::vector<std::int64_t>& cells) {
   static const std::map<CellType, int> codes{{CellType::vertex, 1},      {CellType::line, 2},
                                              {CellType::triangle, 4},    {CellType::quad, 5},
                                              {CellType::tetrahedron, 6}, {CellType::hexahedron, 9}};
-  topology.push_back(codes.at(type));
+  cells.push_back(codes.at(type));
   if (type == CellType::vertex || type == CellType::line) {
-    topology.push_back(static_cast<std::int64_t>(n_nodes(type)));
+    cells.push_back(static_cast<std::int64_t>(n_nodes(type)));
   }
 }
 
-/// One array of cell codes and nodes for a mesh of several cell types.
-std::vector<std::int64_t> mixed_topology(const ResultReader& reader, const Outline& outline) {
+std::vector<std::int64_t> mixed_cells(const ResultReader& reader, const Outline& outline) {
   const auto connectivity = reader.read("/VTKHDF/Connectivity").values;
-  std::vector<std::int64_t> topology;
+  std::vector<std::int64_t> cells;
   std::size_t next = 0;
   for (const CellType type : outline.types) {
-    append_mixed_cell(type, topology);
+    append_mixed_cell(type, cells);
     for (std::size_t node = 0; node < n_nodes(type); ++node) {
-      topology.push_back(static_cast<std::int64_t>(connectivity.at(next++)));
+      cells.push_back(static_cast<std::int64_t>(connectivity.at(next++)));
     }
   }
-  return topology;
+  return cells;
+}
+
+ViewedTopology topology_of(const ResultReader& reader, const Outline& outline) {
+  if (has_one_type(outline)) return {outline.n_cells, n_nodes(outline.types.front()), {}};
+  return {outline.n_cells, 0, mixed_cells(reader, outline)};
 }
 
 const char* attribute_type(std::uint64_t n_components) {
@@ -114,18 +119,17 @@ std::string data_item(const std::string& place, const std::string& dimensions, c
                      kind, bytes, dimensions, place);
 }
 
-std::string topology_text(const Outline& outline, std::size_t mixed_length) {
-  if (mixed_length > 0) {
+std::string topology_text(const Outline& outline, const ViewedTopology& topology) {
+  const std::string place = outline.name + ".views.h5:/Topology";
+  if (!topology.mixed.empty()) {
     return fmt::format("<Topology TopologyType=\"Mixed\" NumberOfElements=\"{}\">{}</Topology>", outline.n_cells,
-                       data_item(outline.name + ".views.h5:/Topology", std::to_string(mixed_length), "Int", 8));
+                       data_item(place, std::to_string(topology.mixed.size()), "Int", 8));
   }
-  const CellType type = outline.types.front();
-  const std::size_t n = n_nodes(type);
+  const std::size_t n = topology.n_nodes;
   const std::string per_element = n < 3 ? fmt::format(" NodesPerElement=\"{}\"", n) : "";
-  return fmt::format(
-      "<Topology TopologyType=\"{}\" NumberOfElements=\"{}\"{}>{}</Topology>", xdmf_name(type), outline.n_cells,
-      per_element,
-      data_item(outline.name + ".h5:/VTKHDF/Connectivity", fmt::format("{} {}", outline.n_cells, n), "Int", 8));
+  return fmt::format("<Topology TopologyType=\"{}\" NumberOfElements=\"{}\"{}>{}</Topology>",
+                     xdmf_name(outline.types.front()), outline.n_cells, per_element,
+                     data_item(place, fmt::format("{} {}", outline.n_cells, n), "Int", 8));
 }
 
 std::string attribute_text(const Outline& outline, const ViewedField& field, std::uint64_t step) {
@@ -138,12 +142,12 @@ std::string attribute_text(const Outline& outline, const ViewedField& field, std
                      data_item(place, dimensions, "Float", 4));
 }
 
-std::string xdmf_text(const Outline& outline, std::size_t mixed_length) {
+std::string xdmf_text(const Outline& outline, const ViewedTopology& topology) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
       "    <Grid Name=\"steps\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   const std::string mesh = fmt::format(
-      "        {}\n        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n", topology_text(outline, mixed_length),
+      "        {}\n        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n", topology_text(outline, topology),
       data_item(outline.name + ".h5:/VTKHDF/Points", fmt::format("{} 3", outline.n_points), "Float", 8));
   for (std::size_t step = 0; step < outline.times.size(); ++step) {
     text += fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n{}", step,
@@ -164,12 +168,14 @@ std::string write_xdmf(const std::string& path) {
     throw Error(ExitCode::bad_data, "a result file without fields", path, "pass qdem.h5 or fem.h5");
   }
   const Outline outline = outline_of(reader, source.stem());
-  const auto topology = has_one_type(outline) ? std::vector<std::int64_t>{} : mixed_topology(reader, outline);
+  const ViewedTopology topology = topology_of(reader, outline);
 
   const std::string views = base.string() + ".views.h5";
   hdf5::write_views(views + ".tmp", source.filename(), outline.fields, outline.times.size(), topology);
-  std::filesystem::rename(views + ".tmp", views);
-  write_text_file(base.string() + ".xdmf", xdmf_text(outline, topology.size()));
+  std::error_code failed;
+  std::filesystem::rename(views + ".tmp", views, failed);
+  if (failed) throw Error(ExitCode::io_error, "cannot rename the file (" + failed.message() + ")", views + ".tmp");
+  write_text_file(base.string() + ".xdmf", xdmf_text(outline, topology));
   return base.string() + ".xdmf";
 }
 
