@@ -1,0 +1,104 @@
+#include "fem_solver/contact/head_band.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "proto/error.hpp"
+
+namespace fem {
+namespace {
+constexpr std::array<double, 3> simpson{1.0 / 6, 4.0 / 6, 1.0 / 6};
+
+// Cubic B-spline of unit knot distance and unit integral, support [-2, 2].
+double cubic_spline(double t) {
+  const double a = std::abs(t);
+  if (a >= 2) return 0.0;
+  return a >= 1 ? (2 - a) * (2 - a) * (2 - a) / 6 : 2.0 / 3 - a * a + a * a * a / 2;
+}
+
+// Quadratic shape function of a node plane at t, in units of the planes' distance; even planes are element boundaries.
+double shape(int plane, double t) {
+  const int element = static_cast<int>(std::floor(t / 2));
+  const int local = plane - 2 * element;
+  const double s = t - 2 * element;  // in [0, 2)
+  switch (local) {
+    case 0:
+      return (s - 1) * (s - 2) / 2;
+    case 1:
+      return s * (2 - s);
+    case 2:
+      return s * (s - 1) / 2;
+    default:
+      return 0.0;
+  }
+}
+}  // namespace
+
+HeadBand::HeadBand(const RailSystem& system)
+    : first_x_(system.mesh->planes().front()), spacing_(system.element_length / 2), n_dofs_(system.n_dofs()) {
+  const auto& mesh = *system.mesh;
+  const int n_planes = 2 * static_cast<int>(mesh.planes().size()) - 1;
+  for (int plane = 0; plane < n_planes; ++plane) {
+    const double x = std::min(first_x_ + plane * spacing_, mesh.planes().back());
+    std::array<int, 3> nodes;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d point(x, mesh.lateral() + (k - 1) * mesh.section().head_half_width,
+                                  mesh.section().head_height);
+      const NodeWeights row = mesh.interpolation(point);
+      nodes[k] = row.nodes[std::max_element(row.weights.begin(), row.weights.end()) - row.weights.begin()];
+    }
+    nodes_.push_back(nodes);
+  }
+}
+
+BandWeights HeadBand::at(double x) const {
+  const double centre = (x - first_x_) / spacing_;
+  const int element = static_cast<int>(std::floor(centre / 2));
+  BandWeights result;
+  // The spline reaches one element to each side of its centre: the elements before, around and after it.
+  result.first_plane = 2 * element - 2;
+  if (result.first_plane < 2 || result.first_plane + BandWeights::n_planes + 2 > static_cast<int>(nodes_.size()))
+    throw proto::Error(proto::ExitCode::config,
+                       "the wheel at x = " + std::to_string(x) + " m comes within three elements of the rail's end",
+                       "wheel.start_m, wheel.speed_m_per_s, coupling.duration_s",
+                       "raise fem.n_bays or shorten the run");
+  // Between the spline's knots and the element boundaries the integrand is of degree five: three Gauss points are
+  // exact.
+  constexpr double point[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
+  constexpr double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+  std::array<double, 9> ends;
+  for (int k = 0; k <= 4; ++k) ends[k] = centre - 2 + k;
+  for (int k = 0; k < 4; ++k) ends[5 + k] = std::clamp(2.0 * (element - 1 + k), centre - 2, centre + 2);
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const double half = (ends[k + 1] - ends[k]) / 2, middle = (ends[k + 1] + ends[k]) / 2;
+    for (int g = 0; g < 3 && half > 0; ++g) {
+      const double t = middle + half * point[g], value = half * weight[g] * cubic_spline(t - centre);
+      for (int j = 0; j < BandWeights::n_planes; ++j) result.weights[j] += value * shape(result.first_plane + j, t);
+    }
+  }
+  return result;
+}
+
+Eigen::VectorXd HeadBand::station_load(int plane) const {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(n_dofs_);
+  for (int k = 0; k < 3; ++k) load[3 * nodes_[plane][k] + 2] += simpson[k];
+  return load;
+}
+
+double HeadBand::read(const BandWeights& weights, const Eigen::VectorXd& field) const {
+  double value = 0.0;
+  for (int j = 0; j < BandWeights::n_planes; ++j)
+    for (int k = 0; k < 3; ++k)
+      value += weights.weights[j] * simpson[k] * field[3 * nodes_[weights.first_plane + j][k] + 2];
+  return value;
+}
+
+void HeadBand::add_load(const BandWeights& weights, double force, Eigen::VectorXd& load) const {
+  for (int j = 0; j < BandWeights::n_planes; ++j)
+    for (int k = 0; k < 3; ++k)
+      load[3 * nodes_[weights.first_plane + j][k] + 2] += force * weights.weights[j] * simpson[k];
+}
+
+}  // namespace fem

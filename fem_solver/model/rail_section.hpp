@@ -1,0 +1,46 @@
+// A rail profile as mapped quadrilateral blocks: foot wings, foot centre, web and head.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace fem {
+
+/// Figures of a cross-section about its centroid.
+struct SectionProperties {
+  double area = 0.0;              ///< [m2]
+  double centroid_height = 0.0;   ///< above the foot's bottom face [m]
+  double inertia_vertical = 0.0;  ///< second moment for bending in the vertical plane [m4]
+  double inertia_lateral = 0.0;   ///< second moment for bending in the horizontal plane [m4]
+};
+
+/// Cross-section in its own frame: y lateral from the plane of symmetry, z up from the foot's bottom face [m].
+struct RailSection {
+  std::vector<Eigen::Vector2d> vertices;  ///< (y, z)
+  /// Corners of each block in lexicographic order (y runs first): lower left, lower right, upper left, upper right.
+  std::vector<std::array<int, 4>> quads;
+  double head_half_width = 0.0;  ///< of the flat top of the middle block, where the wheel runs [m]
+  double head_height = 0.0;      ///< of that flat top [m]
+  double foot_half_width = 0.0;  ///< [m]
+
+  /// Block that holds (y, z) to 1e-9 m and the point's coordinates in [0, 1]^2 of it.
+  /// Throws proto::Error (bad_data) when no block holds the point.
+  struct Place {
+    int quad;
+    Eigen::Vector2d local;
+  };
+  Place locate(const Eigen::Vector2d& point) const;
+
+  /// Exact for the blocks' straight edges.
+  SectionProperties properties() const;
+};
+
+/// The profile called `name` ("60E1"). Throws proto::Error (config) for an unknown name, with the nearest one.
+RailSection rail_section(const std::string& name);
+
+/// Names that rail_section() accepts.
+std::vector<std::string> rail_section_names();
+
+}  // namespace fem

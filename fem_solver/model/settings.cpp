@@ -1,0 +1,92 @@
+#include "fem_solver/model/settings.hpp"
+
+#include "proto/case/track.hpp"
+
+namespace fem {
+namespace {
+
+using proto::Range;
+
+Eigen::Vector3d triple(const proto::Section& section, const std::string& key, const Eigen::Vector3d& fallback) {
+  if (!section.has(key)) return fallback;
+  const auto values = section.numbers(key, 3, Range::not_negative());
+  return {values[0], values[1], values[2]};
+}
+
+SupportSettings read_support(const proto::Section& section, const proto::RailSeat& seat) {
+  SupportSettings s;
+  s.pad_half_lengths = seat.half_lengths;
+  s.pad_cells = seat.cells;
+  s.pad_stiffness = triple(section, "pad_stiffness_n_per_m", seat.stiffness);
+  s.pad_damping = triple(section, "pad_damping_ns_per_m", seat.damping);
+  s.sleeper_mass = section.number_or("sleeper_mass_kg", s.sleeper_mass, Range::positive());
+  s.ballast_stiffness = triple(section, "ballast_stiffness_n_per_m", s.ballast_stiffness);
+  s.ballast_damping = triple(section, "ballast_damping_ns_per_m", s.ballast_damping);
+  if (s.ballast_stiffness.minCoeff() <= 0)
+    section.fail("ballast_stiffness_n_per_m", "a ballast stiffness of zero leaves the sleeper free",
+                 "give three positive values");
+  return s;
+}
+
+Irregularity read_irregularity(const proto::Section& section) {
+  Irregularity r;
+  const std::string kind = section.choice_or("kind", "none", {"none", "dipped_joint", "corrugation", "table"});
+  if (kind == "dipped_joint") {
+    r.kind = IrregularityKind::dipped_joint;
+    r.depth = section.number("depth_m", Range::not_negative());
+    r.length = section.number("length_m", Range::positive());
+    r.position = section.number("position_m");
+  } else if (kind == "corrugation") {
+    r.kind = IrregularityKind::corrugation;
+    r.depth = section.number("amplitude_m", Range::not_negative());
+    r.length = section.number("wavelength_m", Range::positive());
+    r.position = section.number("begin_m");
+  } else if (kind == "table") {
+    r = read_irregularity_table(section.existing_path("file"));
+  }
+  return r;
+}
+
+}  // namespace
+
+FemSettings read_fem(const proto::CaseFile& file, const std::vector<proto::RailSeat>& seats) {
+  const proto::Section section = file.section("fem");
+  FemSettings s;
+  s.profile = section.choice_or("profile", s.profile, rail_section_names());
+  s.n_bays = static_cast<int>(section.integer_or("n_bays", s.n_bays, Range::between(4, 200)));
+  if (s.n_bays % 2)
+    section.fail("n_bays", "the number of bays is odd", "give an even number: the rail is symmetric about x = 0");
+  s.element_length = section.number_or("element_length_m", s.element_length, Range::positive());
+  s.material.young = section.number_or("young_pa", s.material.young, Range::positive());
+  s.material.poisson = section.number_or("poisson", s.material.poisson, Range::between(0.0, 0.49));
+  s.material.density = section.number_or("density_kg_per_m3", s.material.density, Range::positive());
+  s.loss_factor = section.number_or("loss_factor", s.loss_factor, Range::between(0.0, 1.0));
+  s.loss_factor_frequency = section.number_or("loss_factor_frequency_hz", s.loss_factor_frequency, Range::positive());
+  s.gravity = section.boolean_or("gravity", s.gravity);
+  s.end_dashpot_frequency =
+      section.number_or("end_dashpot_frequency_hz", s.end_dashpot_frequency, Range::not_negative());
+  s.initialise_damping = section.number_or("initialise_damping_per_s", s.initialise_damping, Range::not_negative());
+  s.sleeper_spacing = proto::read_track(file).sleeper_spacing;
+  s.support = read_support(section.section("support"), seats.front());
+  section.finish();
+  return s;
+}
+
+WheelSettings read_wheel(const proto::CaseFile& file, const Material& rail) {
+  const proto::Section section = file.section("wheel");
+  WheelSettings w;
+  w.speed = section.number("speed_m_per_s", Range::not_negative());
+  w.start = section.number("start_m");
+  w.static_load = section.number("static_load_n", Range::positive());
+  w.unsprung_mass = section.number("unsprung_mass_kg", Range::positive());
+  w.radius = section.number("radius_m", Range::positive());
+  w.rail_crown_radius = section.number_or("rail_crown_radius_m", w.rail_crown_radius, Range::positive());
+  w.rail = {rail.young, rail.poisson};
+  w.wheel.young = section.number_or("young_pa", rail.young, Range::positive());
+  w.wheel.poisson = section.number_or("poisson", rail.poisson, Range::between(0.0, 0.49));
+  w.irregularity = read_irregularity(section.section("irregularity"));
+  section.finish();
+  return w;
+}
+
+}  // namespace fem

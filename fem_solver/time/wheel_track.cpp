@@ -1,0 +1,145 @@
+#include "fem_solver/time/wheel_track.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace fem {
+
+WheelTrack::Stepper::Stepper(const RailSystem& system, double step, double mass_damping)
+    : newmark(system, step, mass_damping) {
+  if (system.cells.rows() == 0) return;
+  cell_columns = newmark.factor().solve_columns(Eigen::MatrixXd(system.cells.transpose()));
+  compliance = system.cells * cell_columns;
+}
+
+WheelTrack::WheelTrack(const RailSystem& system, const FemSettings& fem, const WheelSettings& wheel, double step,
+                       std::vector<proto::PadLaw> laws)
+    : system_(system),
+      wheel_(wheel),
+      step_(step),
+      initialise_damping_(fem.initialise_damping),
+      laws_(std::move(laws)),
+      band_(system),
+      hertz_(wheel.radius, wheel.rail_crown_radius, wheel.wheel, wheel.rail),
+      statics_(system, band_),
+      march_(system, step, 0.0) {
+  rest(Eigen::VectorXd::Zero(system.cells.rows()));
+}
+
+void WheelTrack::rest(const Eigen::VectorXd& sleeper_displacement) {
+  const auto laws = sleeper_displacement.size() > 0 ? laws_ : std::vector<proto::PadLaw>{};
+  const StaticState s = statics_.solve(laws, sleeper_displacement, band_.at(wheel_.start), wheel_.static_load);
+  state_.last = {s.pad_force, wheel_.static_load, 0};
+  set_rest(s.displacement);
+}
+
+void WheelTrack::set_rest(const Eigen::VectorXd& displacement) {
+  state_.track = march_.newmark.state_at_rest(displacement);
+  state_.windows = 0;
+  state_.wheel_position = wheel_.start;
+  const double rail = band_.read(band_.at(wheel_.start), displacement) + statics_.indentation() * wheel_.static_load;
+  state_.wheel_displacement = rail + wheel_.irregularity.height_at(wheel_.start) -
+                              std::pow(wheel_.static_load / hertz_.coefficient(), 2.0 / 3.0);
+  state_.wheel_velocity = 0.0;
+}
+
+WindowOutput WheelTrack::relax(const WindowInput& input) {
+  if (!relax_) relax_ = std::make_unique<Stepper>(system_, step_, initialise_damping_);
+  return advance(*relax_, input, Wheel::standing);
+}
+
+void WheelTrack::start() {
+  relax_.reset();
+  const InterfaceSolution last = state_.last;
+  set_rest(Eigen::VectorXd(state_.track.displacement));
+  state_.last = last;
+}
+
+WindowOutput WheelTrack::march(const WindowInput& input) {
+  WindowOutput output = advance(march_, input, Wheel::rolling);
+  ++state_.windows;
+  return output;
+}
+
+Eigen::VectorXd WheelTrack::contact_response(Stepper& stepper, const BandWeights& place) const {
+  auto& stations = stepper.stations;
+  stations.erase(stations.begin(), stations.lower_bound(place.first_plane));
+  Eigen::VectorXd response = Eigen::VectorXd::Zero(system_.n_dofs());
+  for (int j = 0; j < BandWeights::n_planes; ++j) {
+    const int plane = place.first_plane + j;
+    auto found = stations.find(plane);
+    if (found == stations.end())
+      found = stations.emplace(plane, stepper.newmark.response(band_.station_load(plane))).first;
+    response += place.weights[j] * found->second;
+  }
+  return response;
+}
+
+// The wheel's own window equation 2 m (v_m - v0)/H = F - P makes its mean displacement affine in F.
+void WheelTrack::add_wheel(InterfaceProblem& problem, const BandWeights& place, double position,
+                           const Eigen::VectorXd& response, const Eigen::VectorXd& free) const {
+  const double half = step_ / 2, per_force = half / wheel_.unsprung_mass;
+  const double wheel_free = state_.wheel_displacement + half * (state_.wheel_velocity - per_force * wheel_.static_load);
+  const double rail_free = band_.read(place, state_.track.displacement) + half * band_.read(place, free);
+  problem.coefficient = hertz_.coefficient();
+  problem.approach_0 = rail_free + wheel_.irregularity.height_at(position) - wheel_free;
+  problem.contact_slope = half * (band_.read(place, response) + per_force) - statics_.indentation();
+}
+
+WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Wheel wheel) {
+  const double position =
+      wheel == Wheel::rolling ? position_at(static_cast<double>(state_.windows) + 0.5) : wheel_.start;
+  const BandWeights place = band_.at(position);
+  const Eigen::VectorXd response = contact_response(stepper, place);
+
+  Eigen::VectorXd load = system_.weight;
+  if (input.prescribed) load -= system_.cells.transpose() * *input.prescribed;
+  Eigen::VectorXd right_side = stepper.newmark.right_side(state_.track, load);
+  Eigen::VectorXd velocity = stepper.newmark.response(right_side);
+
+  InterfaceProblem p;
+  if (!input.prescribed) p.laws = laws_;
+  const auto n = static_cast<Eigen::Index>(p.laws.size());
+  p.time_factor = step_ / 2;
+  p.carry = p.gap_0 = p.free_velocity = p.sleeper_velocity = p.contact_column = Eigen::VectorXd::Zero(n);
+  if (n > 0) {
+    p.carry = input.carry;
+    p.gap_0 = cell_displacement() - input.sleeper_displacement;
+    p.free_velocity = system_.cells * velocity;
+    p.sleeper_velocity = input.sleeper_velocity;
+    p.compliance = stepper.compliance;
+    p.contact_column = system_.cells * response;
+  }
+  if (wheel == Wheel::rolling)
+    add_wheel(p, place, position, response, velocity);
+  else
+    p.given_contact = wheel_.static_load;
+
+  InterfaceSolution guess = state_.last;
+  if (guess.force.size() != n) guess.force = Eigen::VectorXd::Zero(n);
+  const std::string where =
+      "fem: window " + std::to_string(state_.windows) + ", wheel at x = " + std::to_string(position) + " m";
+  const InterfaceSolution solution = solve_interface(p, guess, where.c_str());
+
+  WindowOutput output{solution.force, solution.force - p.carry};
+  if (input.prescribed) output.force_robin = output.force_used = *input.prescribed;
+  if (n > 0) {
+    velocity -= stepper.cell_columns * output.force_used;
+    right_side -= system_.cells.transpose() * output.force_used;
+  }
+  velocity -= solution.contact * response;
+  band_.add_load(place, -solution.contact, right_side);
+  stepper.newmark.finish(state_.track, velocity, right_side);
+
+  if (wheel == Wheel::rolling) {
+    const double mean =
+        state_.wheel_velocity + step_ / (2 * wheel_.unsprung_mass) * (solution.contact - wheel_.static_load);
+    state_.wheel_displacement += step_ * mean;
+    state_.wheel_velocity = 2 * mean - state_.wheel_velocity;
+  }
+  state_.wheel_position = position;
+  state_.last = solution;
+  return output;
+}
+
+}  // namespace fem

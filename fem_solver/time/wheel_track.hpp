@@ -1,0 +1,105 @@
+// Wheel, rail and interface window by window.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fem_solver/assembly/rail_system.hpp"
+#include "fem_solver/contact/head_band.hpp"
+#include "fem_solver/contact/hertz.hpp"
+#include "fem_solver/model/settings.hpp"
+#include "fem_solver/time/interface_solve.hpp"
+#include "fem_solver/time/newmark.hpp"
+#include "fem_solver/time/statics.hpp"
+
+namespace fem {
+
+/// What the coupling partner says about the coupled cells for one window. Sizes: coupled values.
+struct WindowInput {
+  Eigen::VectorXd sleeper_displacement;       ///< x*, window mean [m]
+  Eigen::VectorXd sleeper_velocity;           ///< y*, window mean [m/s]
+  Eigen::VectorXd carry;                      ///< subtracted from the pad's force [N]
+  std::optional<Eigen::VectorXd> prescribed;  ///< force on the sleeper instead of the pad law [N]
+};
+
+/// Forces of one window on the sleepers: by the pad law, and as the rail felt their reaction [N].
+struct WindowOutput {
+  Eigen::VectorXd force_robin, force_used;
+};
+
+/// Mutable part of the simulation.
+struct RunState {
+  TrackState track;
+  double wheel_displacement = 0.0;  ///< from touching the undeformed rail without load, up [m]
+  double wheel_velocity = 0.0;      ///< [m/s]
+  std::int64_t windows = 0;         ///< since time 0
+  InterfaceSolution last;           ///< guess for the next window
+  double wheel_position = 0.0;      ///< x of the contact of the last window's middle, or the start [m]
+};
+
+/// An unsprung mass under a static load runs along the rail on a Hertz spring. Mass and rail share one window equation:
+/// average acceleration, contact evaluated at mid-window position and mean approach; it may open and does not stick.
+class WheelTrack {
+ public:
+  /// `laws`: one per coupled value. `step`: window H [s].
+  WheelTrack(const RailSystem& system, const FemSettings& fem, const WheelSettings& wheel, double step,
+             std::vector<proto::PadLaw> laws);
+
+  /// Sets the static state with the wheel at its start and the coupled sleepers held at `sleeper_displacement` [m].
+  void rest(const Eigen::VectorXd& sleeper_displacement);
+
+  /// One window with the wheel standing at its start under its static load and mass-proportional damping on.
+  WindowOutput relax(const WindowInput& input);
+
+  /// Damping off, velocities to zero, clock to zero; displacements and forces stay.
+  void start();
+
+  /// One window of the march.
+  WindowOutput march(const WindowInput& input);
+
+  const RunState& state() const { return state_; }
+  void set_state(const RunState& state) { state_ = state; }
+  double contact_force() const { return state_.last.contact; }
+  double position_at(double window) const { return wheel_.start + wheel_.speed * step_ * window; }
+  const Hertz& hertz() const { return hertz_; }
+  const Statics& statics() const { return statics_; }
+  const HeadBand& band() const { return band_; }
+  double n_factor_entries() const { return march_.newmark.factor().n_factor_entries(); }
+
+  Eigen::VectorXd cell_displacement() const { return system_.cells * state_.track.displacement; }
+  Eigen::VectorXd cell_velocity() const { return system_.cells * state_.track.velocity; }
+
+ private:
+  // A Newmark operator with what the interface needs of its inverse.
+  struct Stepper {
+    Stepper(const RailSystem& system, double step, double mass_damping);
+    Newmark newmark;
+    Eigen::MatrixXd cell_columns;             // A^-1 Phi'
+    Eigen::MatrixXd compliance;               // Phi A^-1 Phi'
+    std::map<int, Eigen::VectorXd> stations;  // A^-1 of the station loads around the wheel
+  };
+  enum class Wheel { standing, rolling };
+
+  WindowOutput advance(Stepper& stepper, const WindowInput& input, Wheel wheel);
+  Eigen::VectorXd contact_response(Stepper& stepper, const BandWeights& place) const;
+  void add_wheel(InterfaceProblem& problem, const BandWeights& place, double position, const Eigen::VectorXd& response,
+                 const Eigen::VectorXd& free) const;
+  void set_rest(const Eigen::VectorXd& displacement);
+
+  const RailSystem& system_;
+  WheelSettings wheel_;
+  double step_, initialise_damping_;
+  std::vector<proto::PadLaw> laws_;
+  HeadBand band_;
+  Hertz hertz_;
+  Statics statics_;
+  Stepper march_;
+  std::unique_ptr<Stepper> relax_;  // built by the first relax(), gone after start()
+  RunState state_;
+};
+
+}  // namespace fem
