@@ -5,6 +5,7 @@
 // the QDEM (it owns the pad and forms the window's impulse), the implicit side for the FEM (it solves against a
 // predicted sleeper). Both move along the seat's normal axis only. Formulation of this project, proto/README.md.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -22,6 +23,7 @@ struct Oscillator {
   double mass = 0.0;       ///< [kg]
   double stiffness = 0.0;  ///< [N/m]
   double displacement = 0.0, velocity = 0.0;
+  double largest_step = 0.0;  ///< explicit side only; 0: from the stability bound [s]
 };
 
 Oscillator read_oscillator(const Section& section) {
@@ -45,6 +47,8 @@ OscillatorCase read_case(const CaseFile& file) {
   const auto section = file.section("oscillator");
   OscillatorCase result{seats[0], read_oscillator(section.section("explicit")),
                         read_oscillator(section.section("implicit"))};
+  result.explicit_side.largest_step =
+      section.section("explicit").number_or("largest_step_s", 0.0, Range::not_negative());
   section.finish();  // refuses the keys that nobody read
   return result;
 }
@@ -125,14 +129,19 @@ class ExplicitSide : public Side {
             {seat}};
   }
 
-  /// Largest stable step of central differences with a lagging dashpot, with a margin of one half.
+  /// Largest stable step of central differences with a lagging dashpot, with a margin of one half; or less, if the case
+  /// asks for it with `largest_step_s`.
   Configured configure(const Configure& request) override {
     window_s_ = request.window_s;
     const PadLaw pad = seat_.cell_law(normal);
     const double frequency = std::sqrt((now_.stiffness + pad.stiffness) / now_.mass);
-    if (frequency == 0.0) return {};
+    Configured configured;
+    if (now_.largest_step > 0.0) configured.largest_step_s = now_.largest_step;
+    if (frequency == 0.0) return configured;
     const double ratio = pad.damping / (2.0 * now_.mass * frequency);
-    return {0.5 * 2.0 / frequency * (std::sqrt(1.0 + ratio * ratio) - ratio), {}};
+    const double bound = 0.5 * 2.0 / frequency * (std::sqrt(1.0 + ratio * ratio) - ratio);
+    configured.largest_step_s = std::min(bound, configured.largest_step_s.value_or(bound));
+    return configured;
   }
 
   FieldSet start() override {
