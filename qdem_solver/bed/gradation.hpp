@@ -1,0 +1,32 @@
+// Sieve curves: which share of the mass passes which sieve, and stones that follow it.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "qdem_solver/bed/random.hpp"
+
+namespace qdem::bed {
+
+/// A sieve table. Between two sieves the passing share is linear in the size.
+struct Gradation {
+  std::vector<double> sizes;    ///< sieve openings, ascending [m]
+  std::vector<double> passing;  ///< share of the mass that passes, ascending from 0 to 1 [-]
+
+  /// Sieve size that `share` of the mass passes [m].
+  double size_at(double share) const;
+  double passing_at(double size) const;
+};
+
+struct Stone {
+  int template_id = 0;
+  double size = 0.0;  ///< sieve size: its middle extent [m]
+};
+
+/// Draws stones until their solid volume reaches `volume` [m3]. Each stone comes from the sieve interval that lacks
+/// most of its share; within an interval sizes are drawn so that mass spreads evenly. Templates take turns at random.
+/// `unit_volumes`: of every template at scale 1 [m3].
+std::vector<Stone> draw_stones(const Gradation& gradation, const std::vector<double>& unit_volumes, double volume,
+                               Random& random);
+
+}  // namespace qdem::bed
