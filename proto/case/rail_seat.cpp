@@ -64,7 +64,7 @@ std::vector<RailSeat> read_rail_seats(const CaseFile& file) {
   for (const auto& section : file.sections("rail_seat")) {
     seats.push_back(read_rail_seat(section));
     if (!names.insert(seats.back().name).second)
-      section.fail("name", "two rail seats are called '" + seats.back().name + "'");
+      section.fail("name", "two rail seats are called '" + seats.back().name + "'", "give each a name of its own");
   }
   if (seats.empty())
     throw Error(ExitCode::config, "the case has no rail seat", file.path(), "add a [[rail_seat]] table");
