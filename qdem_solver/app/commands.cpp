@@ -1,0 +1,70 @@
+#include "qdem_solver/app/commands.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "proto/case/case_file.hpp"
+#include "proto/error.hpp"
+#include "qdem_solver/output/fields_file.hpp"
+#include "qdem_solver/participant/run_alone.hpp"
+#include "qdem_solver/participant/track_bed.hpp"
+
+namespace qdem {
+namespace {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw proto::Error(proto::ExitCode::cannot_create, "the folder cannot be made (" + error.message() + ")",
+                       folder.string());
+  }
+}
+
+void print_facts(const std::vector<proto::Fact>& facts) {
+  for (const auto& fact : facts) {
+    fmt::print("  {:32} {}\n", fact.key, fact.number ? fmt::format("{:.6g}", *fact.number) : fact.text);
+  }
+}
+
+}  // namespace
+
+void run_command(const std::string& case_path, const std::string& out) {
+  const auto file = proto::CaseFile::load(case_path);
+  check_case(file);
+  make_folder(out);
+  const auto figures = run_alone(file, out, [](double time) {
+    if (isatty(fileno(stderr)) != 0) fmt::print(stderr, "\rt = {:.6f} s", time);
+  });
+  if (isatty(fileno(stderr)) != 0) fmt::print(stderr, "\n");
+  fmt::print("steps                     {} of {:.4g} s\n", figures.steps, figures.step);
+  fmt::print("wall time                 {:.2f} s ({:.1f} million element updates a second)\n", figures.wall,
+             1e-6 * figures.element_updates_per_s);
+  fmt::print("sleeper at the seats      {:.4f} mm along their normal\n", 1e3 * figures.sleeper_displacement);
+  fmt::print("pad force on the sleeper  {:.1f} N along the normal\n", figures.pad_force);
+  fmt::print("kinetic energy            {:.3e} J\n", figures.kinetic_energy);
+  fmt::print("coordination number       {:.2f}\n", figures.coordination_number);
+  if (!figures.output.empty()) fmt::print("fields                    {}\n", figures.output);
+}
+
+void bed_command(const std::string& case_path, const std::string& path) {
+  const auto file = proto::CaseFile::load(case_path);
+  check_case(file);
+  make_folder(std::filesystem::path(path).parent_path());
+  TrackBed bed(file, {});
+  auto attributes = bed.attributes(file);
+  for (const auto& fact : bed.facts()) {
+    if (fact.number) attributes.emplace_back(fact.key, *fact.number);
+  }
+  FieldsFile fields(path, bed.model(), bed.state(), attributes);
+  fields.write(0.0, bed.state(), bed.engine());
+  fields.close();
+  fmt::print("{}\n", path);
+  print_facts(bed.facts());
+}
+
+}  // namespace qdem

@@ -1,0 +1,79 @@
+// qdem_solver: ballast and sleeper, as a participant or alone.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "proto/case/case_file.hpp"
+#include "proto/error.hpp"
+#include "proto/session/participant.hpp"
+#include "qdem_solver/app/commands.hpp"
+#include "qdem_solver/participant/qdem_participant.hpp"
+
+namespace {
+
+struct Arguments {
+  std::string case_path, endpoint, out = ".", name = "qdem", bed_path = "bed.h5";
+};
+
+void check(const Arguments& arguments) {
+  qdem::check_case(proto::CaseFile::load(arguments.case_path));
+}
+
+void participate(const Arguments& arguments) {
+  auto file = proto::CaseFile::load(arguments.case_path);
+  const auto options = proto::read_session_options(arguments.endpoint, file.hash());
+  qdem::QdemParticipant participant(std::move(file), arguments.name, arguments.out);
+  proto::serve(participant, options);
+}
+
+/// Parses the command line and runs the command. CLI11's own errors are turned into usage errors.
+int run(int argc, char** argv) {
+  CLI::App app{"Ballast stones and sleeper as bodies of four-particle viscoelastic elements"};
+  app.require_subcommand(1);
+  Arguments arguments;
+
+  auto* run = app.add_subcommand("run", "integrate the bed by itself, as [qdem.run] says");
+  run->add_option("case", arguments.case_path, "case file")->required();
+  run->add_option("--out", arguments.out, "folder for qdem.h5");
+  run->callback([&] { qdem::run_command(arguments.case_path, arguments.out); });
+
+  auto* bed = app.add_subcommand("bed", "build the bed and write it to a file");
+  bed->add_option("case", arguments.case_path, "case file")->required();
+  bed->add_option("-o,--output", arguments.bed_path, "file to write");
+  bed->callback([&] { qdem::bed_command(arguments.case_path, arguments.bed_path); });
+
+  auto* checker = app.add_subcommand("check", "validate the case without running it");
+  checker->add_option("--case", arguments.case_path, "case file")->required();
+  checker->callback([&] { check(arguments); });
+
+  auto* participant = app.add_subcommand("participant", "take part in a coupled run; started by the coupler");
+  participant->add_option("--case", arguments.case_path, "case file")->required();
+  participant->add_option("--endpoint", arguments.endpoint, "where the coupler listens")->required();
+  participant->add_option("--out", arguments.out, "folder for results");
+  participant->add_option("--name", arguments.name, "name in the session");
+  participant->callback([&] { participate(arguments); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const proto::Error& error) {
+    fmt::print(stderr, "qdem_solver: {}\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "qdem_solver: {} - an unexpected error\n", error.what());
+    return static_cast<int>(proto::ExitCode::internal);
+  }
+}

@@ -1,0 +1,138 @@
+#include "qdem_solver/output/fields_file.hpp"
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "qdem_solver/physics/quadruple_energy.hpp"
+
+namespace qdem {
+namespace {
+
+int n_bodies(const Model& model) {
+  return static_cast<int>(model.bodies.size());
+}
+
+/// Values of an array laid out like State::x in the order of the points: body, node, component.
+std::vector<double> in_point_order(const Model& model, const std::vector<double>& values) {
+  std::vector<double> result;
+  for (int body = 0; body < n_bodies(model); ++body) {
+    for (int node = 0; node < model.shape(body).n_nodes(); ++node) {
+      const Eigen::Vector3d value = State::gather(model, values, body, node);
+      result.insert(result.end(), value.data(), value.data() + 3);
+    }
+  }
+  return result;
+}
+
+proto::OutputMesh mesh_of(const Model& model, const std::vector<double>& points) {
+  std::vector<std::int64_t> connectivity;
+  std::int64_t first = 0;
+  for (int body = 0; body < n_bodies(model); ++body) {
+    for (const auto& tet : model.shape(body).tets) {
+      for (const int node : tet) connectivity.push_back(first + node);
+    }
+    first += model.shape(body).n_nodes();
+  }
+  return proto::OutputMesh::of_one_type(points, std::move(connectivity), proto::CellType::tetrahedron);
+}
+
+/// One value per cell, the same in all cells of a body.
+template <class ValueOf>
+std::vector<float> per_body(const Model& model, ValueOf value_of) {
+  std::vector<float> result;
+  for (int body = 0; body < n_bodies(model); ++body) {
+    result.insert(result.end(), model.shape(body).n_tets(), static_cast<float>(value_of(body)));
+  }
+  return result;
+}
+
+proto::FieldSeriesFile create(const std::string& path, const Model& model, const std::vector<double>& points,
+                              const proto::Attributes& attributes) {
+  using proto::Location;
+  proto::FieldSeriesOptions options;
+  options.mesh = mesh_of(model, points);
+  options.fields = {
+      {"displacement", "m", "from the positions at the start", Location::point, 3},
+      {"velocity", "m/s", "of the particles", Location::point, 3},
+      {"von_mises_stress", "Pa", "of the Cauchy stress", Location::cell, 1},
+      {"mean_stress", "Pa", "a third of the trace of the Cauchy stress, tension positive", Location::cell, 1},
+  };
+  options.static_fields = {
+      {{"body", "1", "number of the body", Location::cell, 1}, per_body(model, [](int body) { return body; })},
+      {{"sleeper", "1", "1 in the sleeper, 0 in stones", Location::cell, 1},
+       per_body(model, [&](int body) { return model.bodies[body].kind == BodyKind::sleeper; })},
+  };
+  options.histories = {{"time", "s", "simulated time", {}},
+                       {"kinetic_energy", "J", "of all particles", {}},
+                       {"strain_energy", "J", "of all elements", {}},
+                       {"contact_energy", "J", "of the contact springs", {}},
+                       {"touching", "1", "contacts that carry a force", {}}};
+  options.attributes = attributes;
+  return proto::FieldSeriesFile::create(path, options);
+}
+
+struct ElementMotion {
+  Eigen::Matrix3d f, f_rate;
+};
+
+ElementMotion motion_of(const Model& model, const State& state, int body, int element) {
+  const Template& shape = model.shape(body);
+  const auto& tet = shape.tets[element];
+  Eigen::Matrix3d dx, dv;
+  for (int k = 0; k < 3; ++k) {
+    dx.col(k) = state.position(model, body, tet[k + 1]) - state.position(model, body, tet[0]);
+    dv.col(k) = state.velocity(model, body, tet[k + 1]) - state.velocity(model, body, tet[0]);
+  }
+  const Eigen::Matrix3d g =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(shape.gradients[element].data());
+  const double scale = model.bodies[body].scale;
+  return {deformation_gradient(dx, g, scale), deformation_gradient(dv, g, scale)};
+}
+
+}  // namespace
+
+FieldsFile::FieldsFile(const std::string& path, const Model& model, const State& reference,
+                       const proto::Attributes& attributes)
+    : model_(model),
+      reference_(in_point_order(model, reference.x)),
+      file_(create(path, model, reference_, attributes)) {}
+
+void FieldsFile::put_stresses(const State& state) {
+  std::vector<double> von_mises, mean;
+  for (int body = 0; body < n_bodies(model_); ++body) {
+    const Material& m = model_.material(body);
+    const QuadrupleMaterial material{m.lambda(), m.mu(), m.lame_viscosity, m.shear_viscosity};
+    for (int e = 0; e < model_.shape(body).n_tets(); ++e) {
+      const auto motion = motion_of(model_, state, body, e);
+      const Eigen::Matrix3d stress = cauchy_stress(motion.f, motion.f_rate, material);
+      mean.push_back(stress.trace() / 3);
+      von_mises.push_back(std::sqrt(1.5) * (stress - mean.back() * Eigen::Matrix3d::Identity()).norm());
+    }
+  }
+  file_.put("von_mises_stress", von_mises);
+  file_.put("mean_stress", mean);
+}
+
+void FieldsFile::write(double time, const State& state, const Engine& engine) {
+  std::vector<double> displacement = in_point_order(model_, state.x);
+  for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] -= reference_[i];
+  const Energies energies = engine.energies(state);
+  const ContactReport contacts = engine.contacts().report(state);
+  file_.put_history("time", time);
+  file_.put_history("kinetic_energy", energies.kinetic);
+  file_.put_history("strain_energy", energies.strain);
+  file_.put_history("contact_energy", contacts.elastic_energy);
+  file_.put_history("touching", static_cast<double>(contacts.live));
+  file_.end_history_row();
+  file_.begin_step(time);
+  file_.put("displacement", displacement);
+  file_.put("velocity", in_point_order(model_, state.v));
+  put_stresses(state);
+  file_.end_step();
+}
+
+void FieldsFile::close() {
+  file_.close();
+}
+
+}  // namespace qdem

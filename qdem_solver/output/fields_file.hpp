@@ -1,0 +1,38 @@
+// qdem.h5: stones and sleeper over time, for ParaView and for reports.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "proto/result/attributes.hpp"
+#include "proto/result/field_series.hpp"
+#include "qdem_solver/engine/engine.hpp"
+#include "qdem_solver/model/model.hpp"
+#include "qdem_solver/state/state.hpp"
+
+namespace qdem {
+
+/// All bodies as one tetrahedral grid. Points are the positions of the state given to the constructor; `displacement`
+/// is measured from them. Point fields: displacement [m], velocity [m/s]. Cell fields: von_mises_stress, mean_stress
+/// (positive in tension) [Pa]. Static: body (number), sleeper (1 or 0). Histories with every step: time [s],
+/// kinetic_energy, strain_energy, contact_energy [J], touching (live contacts).
+class FieldsFile {
+ public:
+  /// Creates `path`. `model` must outlive the object. Throws proto::Error (cannot_create).
+  FieldsFile(const std::string& path, const Model& model, const State& reference, const proto::Attributes& attributes);
+
+  /// Appends one step. Throws proto::Error (io_error).
+  void write(double time, const State& state, const Engine& engine);
+
+  /// Closes and writes the ParaView sidecar.
+  void close();
+
+ private:
+  void put_stresses(const State& state);
+
+  const Model& model_;
+  std::vector<double> reference_;  ///< in the order of the points
+  proto::FieldSeriesFile file_;
+};
+
+}  // namespace qdem

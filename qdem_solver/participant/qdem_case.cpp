@@ -1,0 +1,89 @@
+#include "qdem_solver/participant/qdem_case.hpp"
+
+#include "proto/error.hpp"
+
+namespace qdem {
+namespace {
+
+using proto::Range;
+using proto::Section;
+
+Material read_material(const Section& section, const std::string& name) {
+  Material material;
+  material.name = name;
+  material.young = section.number("young_pa", Range::positive());
+  material.poisson = section.number("poisson", Range::between(0.0, 0.49));
+  material.density = section.number("density_kg_per_m3", Range::positive());
+  if (section.has("retardation_time_s") &&
+      (section.has("lame_viscosity_pa_s") || section.has("shear_viscosity_pa_s"))) {
+    section.fail("retardation_time_s", "viscosity is given twice",
+                 "give retardation_time_s, or lame_viscosity_pa_s and shear_viscosity_pa_s");
+  }
+  const double time = section.number_or("retardation_time_s", 0.0, Range::not_negative());
+  material.lame_viscosity = section.number_or("lame_viscosity_pa_s", time * material.lambda(), Range::not_negative());
+  material.shear_viscosity = section.number_or("shear_viscosity_pa_s", time * material.mu(), Range::not_negative());
+  return material;
+}
+
+void read_materials(const Section& qdem, BedPhysics& physics) {
+  bool has_stone = false, has_sleeper = false;
+  for (const Section& section : qdem.sections("material")) {
+    const std::string name = section.choice("name", {"stone", "sleeper"});
+    bool& seen = name == "stone" ? has_stone : has_sleeper;
+    if (seen) section.fail("name", "the material '" + name + "' is given twice");
+    seen = true;
+    (name == "stone" ? physics.stone : physics.sleeper) = read_material(section, name);
+  }
+  if (!has_stone || !has_sleeper) {
+    qdem.fail("material", std::string("the material '") + (has_stone ? "sleeper" : "stone") + "' is missing",
+              "add a [[qdem.material]] with that name");
+  }
+}
+
+void read_contact(const Section& section, BedPhysics& physics) {
+  ContactLaw& law = physics.contact;
+  law.normal_stiffness = section.number("normal_stiffness_n_per_m", Range::positive());
+  law.tangential_ratio = section.number_or("tangential_ratio", 0.8, Range::between(0.0, 1.0));
+  law.damping_ratio = section.number("damping_ratio", Range::between(0.0, 1.0));
+  law.friction = section.number("friction", Range::between(0.0, 2.0));
+  law.rounding = section.number("rounding_m", Range::positive());
+  physics.ground_friction = section.number_or("ground_friction", law.friction, Range::between(0.0, 2.0));
+}
+
+RunAlone read_run(const Section& section) {
+  RunAlone run;
+  run.duration = section.number_or("duration_s", 0.0, Range::not_negative());
+  run.output_interval = section.number_or("output_interval_s", 0.0, Range::not_negative());
+  run.load_time = section.numbers_or("load_time_s", {}, Range::not_negative());
+  run.load_force = section.numbers_or("load_force_n", {});
+  if (run.load_time.size() != run.load_force.size()) {
+    section.fail(
+        "load_force_n",
+        std::to_string(run.load_force.size()) + " forces for " + std::to_string(run.load_time.size()) + " times",
+        "give as many forces as load_time_s has times");
+  }
+  for (std::size_t i = 1; i < run.load_time.size(); ++i) {
+    if (run.load_time[i] <= run.load_time[i - 1]) section.fail("load_time_s", "the times do not ascend");
+  }
+  return run;
+}
+
+}  // namespace
+
+QdemCase read_qdem_case(const proto::CaseFile& file) {
+  const Section section = file.section("qdem");
+  QdemCase result;
+  result.step_safety = section.number_or("step_safety", result.step_safety, {0.0, 1.0, true});
+  result.largest_step = section.number_or("largest_step_s", 0.0, Range::not_negative());
+  result.threads = static_cast<int>(section.integer_or("threads", 0, Range::between(0, 1024)));
+  result.physics.gravity = {0, 0, -section.number_or("gravity_m_per_s2", 9.81, Range::not_negative())};
+  result.initialise_damping =
+      section.number_or("initialise_damping", result.initialise_damping, Range::between(0, 0.95));
+  read_materials(section, result.physics);
+  read_contact(section.section("contact"), result.physics);
+  result.run = read_run(section.section("run"));
+  section.finish();
+  return result;
+}
+
+}  // namespace qdem

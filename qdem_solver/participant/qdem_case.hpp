@@ -1,0 +1,37 @@
+// `[qdem]`: materials, contact, integration, and the run without a coupler.
+#pragma once
+
+#include <vector>
+
+#include "proto/case/case_file.hpp"
+#include "qdem_solver/bed/bed.hpp"
+
+namespace qdem {
+
+/// `[qdem.run]`: what `qdem_solver run` does with the bed.
+struct RunAlone {
+  double duration = 0.0;           ///< [s]
+  double output_interval = 0.0;    ///< [s]; 0: only the last state
+  std::vector<double> load_time;   ///< ascending [s]; empty: no load
+  std::vector<double> load_force;  ///< downward force on the pads of all seats together at those times [N]
+};
+
+struct QdemCase {
+  BedPhysics physics;
+  double step_safety = 0.8;         ///< share of the computed stability bound
+  double largest_step = 0.0;        ///< the user's own limit [s]; 0: none
+  int threads = 0;                  ///< 0: as many as the environment gives
+  double initialise_damping = 0.5;  ///< Cundall's damping in the initialise phase [-]
+  RunAlone run;
+};
+
+/// Reads
+///   [qdem] step_safety, largest_step_s, threads, gravity_m_per_s2, initialise_damping
+///   [[qdem.material]] name ("stone", "sleeper"; both once), young_pa, poisson, density_kg_per_m3, and either
+///     retardation_time_s or lame_viscosity_pa_s with shear_viscosity_pa_s
+///   [qdem.contact] normal_stiffness_n_per_m, tangential_ratio, damping_ratio, friction, ground_friction, rounding_m
+///   [qdem.run] duration_s, output_interval_s, load_time_s, load_force_n
+/// and refuses every other key. Throws proto::Error (config).
+QdemCase read_qdem_case(const proto::CaseFile& file);
+
+}  // namespace qdem

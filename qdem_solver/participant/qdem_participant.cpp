@@ -1,0 +1,120 @@
+#include "qdem_solver/participant/qdem_participant.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "proto/case/coupling.hpp"
+#include "proto/error.hpp"
+#include "qdem_solver/engine/pads.hpp"
+#include "qdem_solver/participant/seat_registration.hpp"
+
+namespace qdem {
+
+namespace field = proto::field;
+
+QdemParticipant::QdemParticipant(proto::CaseFile file, std::string name, std::string out)
+    : file_(std::move(file)), name_(std::move(name)), out_(std::move(out)) {
+  check_case(file_);
+  output_interval_ = proto::read_coupling(file_).output_interval_s;
+}
+
+QdemParticipant::~QdemParticipant() = default;
+
+proto::Capabilities QdemParticipant::capabilities() const {
+  proto::Capabilities capabilities;
+  capabilities.rollback = true, capabilities.initialise = true;
+  return capabilities;
+}
+
+proto::Interface QdemParticipant::describe() {
+  bed_ = std::make_unique<TrackBed>(file_, [this] {
+    if (progress_ != nullptr) progress_->bump();
+  });
+  bed_->set_local_damping(bed_->settings().initialise_damping);
+  proto::Interface interface;
+  for (const char* name : {field::rail_displacement_begin, field::rail_displacement}) {
+    interface.fields.push_back({name, "m", 3, false});
+  }
+  for (const char* name : {field::rail_velocity_begin, field::rail_velocity}) {
+    interface.fields.push_back({name, "m/s", 3, false});
+  }
+  interface.fields.push_back({field::sleeper_displacement, "m", 3, true});
+  interface.fields.push_back({field::sleeper_velocity, "m/s", 3, true});
+  interface.fields.push_back({field::impulse, "N s", 3, true});
+  interface.fields.push_back({field::pad_work, "J", 3, true});
+  interface.seats = register_seats(bed_->model(), bed_->state(), bed_->seats());
+  return interface;
+}
+
+proto::Configured QdemParticipant::configure(const proto::Configure& request) {
+  window_s_ = request.window_s;
+  if (!request.output_directory.empty()) out_ = request.output_directory;
+  return {bed_->largest_step(), bed_->facts()};
+}
+
+proto::FieldSet QdemParticipant::values(PadSums sums) const {
+  proto::FieldSet data;
+  data.set(field::sleeper_displacement, bed_->pad_displacement());
+  data.set(field::sleeper_velocity, bed_->pad_velocity());
+  data.set(field::impulse, std::move(sums.impulse));
+  data.set(field::pad_work, std::move(sums.work));
+  return data;
+}
+
+proto::FieldSet QdemParticipant::advance(const proto::Advance& request, proto::Progress&) {
+  const double dt = request.window_s / request.sub_cycles;
+  if (dt > bed_->largest_step() * (1 + 1e-9)) {
+    throw proto::Error(proto::ExitCode::protocol,
+                       fmt::format("{} sub-cycles make a step of {:.4g} s, the largest stable one is {:.4g} s",
+                                   request.sub_cycles, dt, bed_->largest_step()),
+                       fmt::format("window {}", request.window), "see Configured.largest_step_s in proto/README.md");
+  }
+  before_window_ = bed_->state();
+  const auto& begin = request.data.get(field::rail_displacement_begin);
+  const auto& end = request.data.get(field::rail_displacement);
+  return values(bed_->engine().advance(bed_->state(), dt, request.sub_cycles, {begin, end}));
+}
+
+bool QdemParticipant::output_is_due(std::int64_t window) const {
+  if (output_interval_ <= 0) return false;
+  // A step of output belongs to the window whose end reaches the next multiple of the interval.
+  const auto outputs_until = [&](std::int64_t n) {
+    return std::floor(static_cast<double>(n) * window_s_ / output_interval_ * (1 + 1e-12));
+  };
+  return outputs_until(window + 1) > outputs_until(window);
+}
+
+void QdemParticipant::commit(const proto::Commit& request) {
+  if (!marching_ || !output_is_due(request.window) || !fields_) return;
+  fields_->write(static_cast<double>(request.window + 1) * window_s_, bed_->state(), bed_->engine());
+}
+
+void QdemParticipant::rollback(const proto::Rollback&) {
+  bed_->state() = before_window_;
+}
+
+proto::FieldSet QdemParticipant::start() {
+  bed_->set_local_damping(0.0);
+  bed_->reset_clock();
+  marching_ = true;
+  if (output_interval_ > 0) {
+    fields_ = std::make_unique<FieldsFile>(out_ + "/qdem.h5", bed_->model(), bed_->state(), bed_->attributes(file_));
+    fields_->write(0.0, bed_->state(), bed_->engine());
+  }
+  const std::vector<double> zero(3 * bed_->model().pads.size(), 0.0);
+  return values({zero, zero});
+}
+
+std::vector<proto::Fact> QdemParticipant::finish() {
+  if (fields_) fields_->close();
+  fields_.reset();
+  const auto contacts = bed_->engine().contacts().report(bed_->state());
+  return {{"qdem.end.coordination_number", contacts.coordination_number, {}},
+          {"qdem.end.largest_penetration_m", contacts.largest_penetration, {}},
+          {"qdem.steps", static_cast<double>(bed_->state().step), {}},
+          {"qdem.candidate_rebuilds", static_cast<double>(bed_->state().contact.rebuilds), {}}};
+}
+
+}  // namespace qdem

@@ -1,0 +1,49 @@
+// The QDEM solver as a participant of a coupled run.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "proto/case/case_file.hpp"
+#include "proto/session/participant.hpp"
+#include "qdem_solver/output/fields_file.hpp"
+#include "qdem_solver/participant/track_bed.hpp"
+
+namespace qdem {
+
+/// Adapter from the session to the engine. describe() builds or loads the bed; a window is `sub_cycles` steps with the
+/// rail foot moving linearly; the impulse and the pads' work are formed step by step from the forces the integrator
+/// used.
+class QdemParticipant : public proto::Participant {
+ public:
+  /// `out`: folder of qdem.h5 unless Configure names another.
+  QdemParticipant(proto::CaseFile file, std::string name, std::string out);
+  ~QdemParticipant() override;
+
+  std::string name() const override { return name_; }
+  proto::Capabilities capabilities() const override;
+  void watch(proto::Progress& progress) override { progress_ = &progress; }
+  proto::Interface describe() override;
+  proto::Configured configure(const proto::Configure& request) override;
+  proto::FieldSet advance(const proto::Advance& request, proto::Progress& progress) override;
+  void commit(const proto::Commit& request) override;
+  void rollback(const proto::Rollback& request) override;
+  proto::FieldSet start() override;
+  std::vector<proto::Fact> finish() override;
+
+ private:
+  proto::FieldSet values(PadSums sums) const;
+  bool output_is_due(std::int64_t window) const;
+
+  proto::CaseFile file_;
+  std::string name_, out_;
+  proto::Progress* progress_ = nullptr;
+  std::unique_ptr<TrackBed> bed_;
+  std::unique_ptr<FieldsFile> fields_;
+  State before_window_;
+  double window_s_ = 0.0, output_interval_ = 0.0;
+  bool marching_ = false;
+};
+
+}  // namespace qdem

@@ -1,0 +1,129 @@
+#include "qdem_solver/participant/run_alone.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "proto/error.hpp"
+#include "qdem_solver/output/fields_file.hpp"
+#include "qdem_solver/participant/track_bed.hpp"
+
+namespace qdem {
+namespace {
+
+/// Steps between two looks at the load; the force lags by at most as many.
+constexpr std::int64_t steps_per_look = 10;
+
+double interpolated(const RunAlone& run, double time) {
+  const auto next = std::upper_bound(run.load_time.begin(), run.load_time.end(), time);
+  if (next == run.load_time.begin()) return run.load_force.front();
+  if (next == run.load_time.end()) return run.load_force.back();
+  const auto i = static_cast<std::size_t>(next - run.load_time.begin());
+  const double share = (time - run.load_time[i - 1]) / (run.load_time[i] - run.load_time[i - 1]);
+  return run.load_force[i - 1] + share * (run.load_force[i] - run.load_force[i - 1]);
+}
+
+/// Rail foot that presses every cell with a given force: it follows the sleeper, deeper by the spring's compression.
+class PressingFoot {
+ public:
+  PressingFoot(TrackBed& bed, double force) : bed_(bed), foot_(wanted(force, 0.0)) {}
+
+  void advance(double dt, std::int64_t n_steps, double end_force) {
+    const auto next = wanted(end_force, dt * static_cast<double>(n_steps));
+    bed_.engine().advance(bed_.state(), dt, n_steps, {foot_, next});
+    foot_ = next;
+  }
+
+ private:
+  std::vector<double> wanted(double force, double ahead) const {
+    std::vector<double> u = bed_.pad_displacement(), rate = bed_.pad_velocity();
+    double stiffness = 0.0;
+    for (const PadCell& cell : bed_.model().pads) stiffness += cell.laws[2].stiffness;
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] += ahead * rate[i] - (i % 3 == 2 ? force / stiffness : 0.0);
+    return u;
+  }
+
+  TrackBed& bed_;
+  std::vector<double> foot_;
+};
+
+class OutputClock {
+ public:
+  OutputClock(TrackBed& bed, const proto::CaseFile& file, const std::string& out)
+      : bed_(bed), interval_(bed.settings().run.output_interval) {
+    if (interval_ <= 0) return;
+    path_ = out + "/qdem.h5";
+    fields_.emplace(path_, bed.model(), bed.state(), bed.attributes(file));
+    fields_->write(0.0, bed.state(), bed.engine());
+  }
+  void look() {
+    const double time = bed_.state().time;
+    if (!fields_ || time < static_cast<double>(n_written_) * interval_ * (1 - 1e-12)) return;
+    fields_->write(time, bed_.state(), bed_.engine());
+    n_written_ = static_cast<std::int64_t>(std::floor(time / interval_ * (1 + 1e-12))) + 1;
+  }
+  std::string close() {
+    if (fields_) fields_->close();
+    return path_;
+  }
+
+ private:
+  TrackBed& bed_;
+  double interval_;
+  std::int64_t n_written_ = 1;
+  std::string path_;
+  std::optional<FieldsFile> fields_;
+};
+
+std::int64_t n_elements(const Model& model) {
+  std::int64_t sum = 0;
+  for (std::size_t body = 0; body < model.bodies.size(); ++body) sum += model.shape(static_cast<int>(body)).n_tets();
+  return sum;
+}
+
+void add_end_state(TrackBed& bed, RunFigures& figures) {
+  figures.kinetic_energy = bed.engine().energies(bed.state()).kinetic;
+  figures.coordination_number = bed.engine().contacts().report(bed.state()).coordination_number;
+  const auto displacement = bed.pad_displacement();
+  for (std::size_t i = 2; i < displacement.size(); i += 3) {
+    figures.sleeper_displacement += 3 * displacement[i] / static_cast<double>(displacement.size());
+    figures.pad_force += bed.state().pad_force[i];
+  }
+}
+
+}  // namespace
+
+RunFigures run_alone(const proto::CaseFile& file, const std::string& out, const std::function<void(double)>& report) {
+  TrackBed bed(file, {});
+  const RunAlone& run = bed.settings().run;
+  if (run.duration <= 0) file.section("qdem").section("run").fail("duration_s", "there is nothing to run");
+  bed.reset_clock();
+  OutputClock output(bed, file, out);
+  RunFigures figures;
+  figures.step = bed.largest_step();
+  const auto n_steps = static_cast<std::int64_t>(std::ceil(run.duration / figures.step));
+  std::optional<PressingFoot> foot;
+  if (!run.load_time.empty()) foot.emplace(bed, interpolated(run, 0.0));
+  const auto begin = std::chrono::steady_clock::now();
+  while (figures.steps < n_steps) {
+    const std::int64_t n = std::min(steps_per_look, n_steps - figures.steps);
+    const double end = figures.step * static_cast<double>(figures.steps + n);
+    if (foot) {
+      foot->advance(figures.step, n, interpolated(run, end));
+    } else {
+      bed.engine().advance(bed.state(), figures.step, n);
+    }
+    figures.steps += n;
+    output.look();
+    if (report && figures.steps % (100 * steps_per_look) == 0) report(end);
+  }
+  figures.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  figures.element_updates_per_s =
+      static_cast<double>(figures.steps) * static_cast<double>(n_elements(bed.model())) / figures.wall;
+  add_end_state(bed, figures);
+  figures.output = output.close();
+  return figures;
+}
+
+}  // namespace qdem

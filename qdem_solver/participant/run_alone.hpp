@@ -1,0 +1,31 @@
+// The bed by itself: `qdem_solver run`.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "proto/case/case_file.hpp"
+
+namespace qdem {
+
+/// What a run came to.
+struct RunFigures {
+  std::int64_t steps = 0;
+  double step = 0.0;  ///< [s]
+  double wall = 0.0;  ///< integration only [s]
+  double element_updates_per_s = 0.0;
+  double kinetic_energy = 0.0;        ///< at the end [J]
+  double sleeper_displacement = 0.0;  ///< mean along the seats' normals at the end [m]
+  double pad_force = 0.0;             ///< sum along the seats' normals at the end [N]
+  double coordination_number = 0.0;
+  std::string output;  ///< path of qdem.h5, "" when none was asked for
+};
+
+/// Integrates the bed of `file` for [qdem.run] duration_s, damping off. With a load, every pad cell is pressed with its
+/// share (by stiffness) of the force interpolated in load_time_s/load_force_n; along the other axes the rail foot
+/// follows the sleeper. Writes `out`/qdem.h5 at multiples of output_interval_s.
+/// `report(time)` is called now and then. Throws as TrackBed, and proto::Error (numerics).
+RunFigures run_alone(const proto::CaseFile& file, const std::string& out, const std::function<void(double)>& report);
+
+}  // namespace qdem

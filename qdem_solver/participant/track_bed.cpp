@@ -1,0 +1,88 @@
+#include "qdem_solver/participant/track_bed.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "proto/error.hpp"
+#include "proto/result/provenance.hpp"
+#include "qdem_solver/model/pad_cells.hpp"
+
+namespace qdem {
+namespace {
+
+Bed bed_of(const proto::CaseFile& file, const QdemCase& settings) {
+  if (settings.threads > 0) omp_set_num_threads(settings.threads);
+  return make_bed(file, settings.physics);
+}
+
+}  // namespace
+
+TrackBed::TrackBed(const proto::CaseFile& file, std::function<void()> on_step)
+    : settings_(read_qdem_case(file)),
+      seats_(proto::read_rail_seats(file)),
+      bed_(bed_of(file, settings_)),
+      rest_(bed_.state) {
+  bed_.model.pads = make_pad_cells(bed_.model, bed_.state, bed_.model.pad_body, seats_);
+  engine_ = std::make_unique<Engine>(bed_.model, EngineOptions{settings_.threads, std::move(on_step)});
+  engine_->set_pad_reference(rest_.x);
+  engine_->prepare(bed_.state);
+  find_step(file);
+}
+
+void TrackBed::find_step(const proto::CaseFile& file) {
+  stability_ = stability(bed_.model, bed_.state, engine_->contacts());
+  largest_step_ = settings_.step_safety * stability_.largest_step;
+  if (settings_.largest_step <= 0) return;
+  if (settings_.largest_step > stability_.largest_step) {
+    file.section("qdem").fail("largest_step_s",
+                              fmt::format("{:.4g} s is above the stability bound of {:.4g} s", settings_.largest_step,
+                                          stability_.largest_step),
+                              "lower it, or leave it out: the step then follows from the bound and step_safety");
+  }
+  largest_step_ = std::min(largest_step_, settings_.largest_step);
+}
+
+void TrackBed::reset_clock() {
+  bed_.state.step = 0, bed_.state.time = 0.0;
+  bed_.state.contact.rebuild_time = 0.0;
+}
+
+std::vector<proto::Fact> TrackBed::facts() const {
+  const BedReport& report = bed_.report;
+  std::vector<proto::Fact> facts;
+  const auto add = [&](const char* key, double value) { facts.push_back({key, value, {}}); };
+  add("bed.stones", static_cast<double>(report.stones));
+  add("bed.elements", static_cast<double>(report.elements));
+  add("bed.seed", static_cast<double>(report.seed));
+  add("bed.porosity", report.porosity_layer);
+  add("bed.porosity_under_sleeper", report.porosity_under_sleeper);
+  add("bed.coordination_number", report.coordination_number);
+  add("bed.largest_penetration_m", report.largest_penetration);
+  add("bed.unbalanced_force_ratio", report.unbalanced_force_ratio);
+  add("bed.kinetic_energy_j", report.kinetic_energy);
+  add("bed.d50_m", report.d50);
+  add("bed.elements_per_stone", report.elements_per_stone);
+  add("bed.sleeper_tilt_rad", report.sleeper_tilt);
+  add("bed.build_wall_s", report.build_wall_s);
+  facts.push_back({"bed.hash", std::nullopt, report.hash});
+  facts.push_back({"bed.source", std::nullopt, report.from_cache ? "cache" : "built"});
+  add("qdem.step_bound_s", stability_.largest_step);
+  add("qdem.largest_step_s", largest_step_);
+  add("qdem.threads", settings_.threads > 0 ? settings_.threads : omp_get_max_threads());
+  return facts;
+}
+
+proto::Attributes TrackBed::attributes(const proto::CaseFile& file) const {
+  auto attributes = proto::provenance("qdem_solver", file.name(), file.hash(), file.text());
+  attributes.emplace_back("bed_hash", bed_.report.hash);
+  attributes.emplace_back("bed_seed", bed_.report.seed);
+  return attributes;
+}
+
+void check_case(const proto::CaseFile& file) {
+  read_qdem_case(file);
+  proto::read_rail_seats(file);
+  check_bed(file);
+}
+
+}  // namespace qdem

@@ -1,0 +1,65 @@
+// The bed under its rail pads, ready to be integrated: what the participant and the run alone share.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "proto/case/case_file.hpp"
+#include "proto/case/rail_seat.hpp"
+#include "proto/result/attributes.hpp"
+#include "proto/wire/messages.hpp"
+#include "qdem_solver/bed/bed.hpp"
+#include "qdem_solver/engine/engine.hpp"
+#include "qdem_solver/engine/stability.hpp"
+#include "qdem_solver/participant/qdem_case.hpp"
+
+namespace qdem {
+
+/// Bed, pads, engine and step bound of one case. Not movable: the engine refers to the model inside.
+class TrackBed {
+ public:
+  /// Reads `[qdem]`, `[[rail_seat]]` and the bed's sections; builds the bed or loads it from its cache; lays the pads.
+  /// `on_step` is called after every step. Throws what make_bed(), read_qdem_case(), make_pad_cells() throw, and
+  /// proto::Error (config) for a largest_step_s above the stability bound.
+  TrackBed(const proto::CaseFile& file, std::function<void()> on_step);
+  TrackBed(const TrackBed&) = delete;
+  TrackBed& operator=(const TrackBed&) = delete;
+
+  const QdemCase& settings() const { return settings_; }
+  const std::vector<proto::RailSeat>& seats() const { return seats_; }
+  const Model& model() const { return bed_.model; }
+  State& state() { return bed_.state; }
+  Engine& engine() { return *engine_; }
+  double largest_step() const { return largest_step_; }  ///< safety included [s]
+
+  /// Cundall's damping from now on: 0 in the march.
+  void set_local_damping(double value) { bed_.model.local_damping = value; }
+  /// Sets step and time to 0; motion and contact history stay.
+  void reset_clock();
+
+  /// Displacement from the bed's rest, and velocity, of the sleeper at the pad cells.
+  std::vector<double> pad_displacement() const { return engine_->pad_displacement(bed_.state, rest_.x); }
+  std::vector<double> pad_velocity() const { return engine_->pad_velocity(bed_.state); }
+
+  /// The bed's and the time step's figures for the summary.
+  std::vector<proto::Fact> facts() const;
+  /// Provenance, bed hash and seed for result files.
+  proto::Attributes attributes(const proto::CaseFile& file) const;
+
+ private:
+  void find_step(const proto::CaseFile& file);
+
+  QdemCase settings_;
+  std::vector<proto::RailSeat> seats_;
+  Bed bed_;
+  State rest_;
+  std::unique_ptr<Engine> engine_;
+  StabilityReport stability_;
+  double largest_step_ = 0.0;
+};
+
+/// Checks everything that can be checked of the QDEM sections without building the bed. Throws as TrackBed.
+void check_case(const proto::CaseFile& file);
+
+}  // namespace qdem
