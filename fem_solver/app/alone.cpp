@@ -1,0 +1,102 @@
+#include "fem_solver/app/alone.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+namespace fem {
+namespace {
+
+RailSystem own_track(const FemCase& input) {
+  return build_rail_system(input.fem, input.seats, SeatOwner::own_supports);
+}
+
+WheelTrack make_track(const FemCase& input, const RailSystem& system) {
+  return WheelTrack(system, input.fem, input.wheel, input.coupling.window_s, {});
+}
+
+void print_section(const RailSystem& system, const FemSettings& settings) {
+  const SectionProperties p = system.mesh->section().properties();
+  std::printf("section %s: area %.3f cm2, I vertical %.1f cm4, I lateral %.1f cm4, centroid %.1f mm, %.2f kg/m\n",
+              settings.profile.c_str(), p.area * 1e4, p.inertia_vertical * 1e8, p.inertia_lateral * 1e8,
+              p.centroid_height * 1e3, p.area * settings.material.density);
+  std::printf("rail %.2f m, %d elements of %.3f m length, %d unknowns\n",
+              system.mesh->planes().back() - system.mesh->planes().front(), system.mesh->n_elements(),
+              system.element_length, system.n_dofs());
+}
+
+// Vertical pad force that presses on each support [N].
+std::vector<double> seat_forces(const RailSystem& system, const TrackState& state) {
+  const Eigen::VectorXd u = system.support_cells * state.displacement.head(system.mesh->n_dofs());
+  const Eigen::VectorXd v = system.support_cells * state.velocity.head(system.mesh->n_dofs());
+  std::vector<double> forces;
+  Eigen::Index value = 2;
+  for (std::size_t i = 0; i < system.support_seats.size(); ++i) {
+    const auto& seat = system.support_seats[i];
+    const int sleeper = system.sleeper_dof(static_cast<int>(i), 0);
+    const double x = seat.axes.col(2).dot(state.displacement.segment<3>(sleeper));
+    const double y = seat.axes.col(2).dot(state.velocity.segment<3>(sleeper));
+    const proto::PadLaw law = seat.cell_law(2);
+    double sum = 0.0;
+    for (int cell = 0; cell < seat.n_cells(); ++cell, value += 3)
+      sum -= law.stiffness * (u[value] - x) + law.damping * (v[value] - y);
+    forces.push_back(sum);
+  }
+  return forces;
+}
+
+}  // namespace
+
+void check_case(const FemCase& input) {
+  const RailSystem system = build_rail_system(input.fem, input.seats, SeatOwner::partner);
+  const HeadBand band(system);
+  band.at(input.wheel.start);
+  band.at(input.wheel.start +
+          input.wheel.speed * input.coupling.window_s * static_cast<double>(input.coupling.n_windows));
+  Hertz(input.wheel.radius, input.wheel.rail_crown_radius, input.wheel.wheel, input.wheel.rail);
+}
+
+void print_static(const FemCase& input) {
+  const RailSystem system = own_track(input);
+  print_section(system, input.fem);
+  const WheelTrack track = make_track(input, system);
+  const auto& state = track.state();
+  const double hertz = track.hertz().at_force(input.wheel.static_load).approach;
+  std::printf("wheel of %.1f kN at x = %.3f m: rail %.4f mm, Hertz approach %.4f mm, wheel %.4f mm\n",
+              input.wheel.static_load * 1e-3, input.wheel.start, (state.wheel_displacement + hertz) * 1e3, hertz * 1e3,
+              state.wheel_displacement * 1e3);
+  const auto forces = seat_forces(system, state.track);
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    std::printf("seat at x = %6.2f m: %9.3f kN\n", system.support_seats[i].origin[0], forces[i] * 1e-3);
+}
+
+void run_alone(const FemCase& input, const std::string& out) {
+  check_case(input);
+  const RailSystem system = own_track(input);
+  print_section(system, input.fem);
+  WheelTrack track = make_track(input, system);
+  FemRecord record(out, input.file, system, input.fem.material, input.coupling.window_s,
+                   windows_per_output(input.coupling.output_interval_s, input.coupling.window_s));
+  record.begin(track);
+  double largest = 0.0, smallest = input.wheel.static_load;
+  std::vector<double> largest_seat(system.support_seats.size(), 0.0);
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::uint64_t n = 0; n < input.coupling.n_windows; ++n) {
+    track.march({});
+    record.window(track);
+    largest = std::max(largest, track.contact_force()), smallest = std::min(smallest, track.contact_force());
+    const auto forces = seat_forces(system, track.state().track);
+    for (std::size_t i = 0; i < forces.size(); ++i) largest_seat[i] = std::max(largest_seat[i], forces[i]);
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  record.close();
+  std::printf("%llu windows in %.1f s (%.2f ms each); contact force %.2f to %.2f kN\n",
+              static_cast<unsigned long long>(input.coupling.n_windows), wall.count(),
+              1e3 * wall.count() / static_cast<double>(input.coupling.n_windows), smallest * 1e-3, largest * 1e-3);
+  for (std::size_t i = 0; i < largest_seat.size(); ++i)
+    std::printf("seat at x = %6.2f m: largest force %8.3f kN\n", system.support_seats[i].origin[0],
+                largest_seat[i] * 1e-3);
+  std::printf("results: %s/fem.h5\n", out.c_str());
+}
+
+}  // namespace fem

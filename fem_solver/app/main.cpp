@@ -1,0 +1,60 @@
+// fem_solver: the rail and the wheel, as a participant of a coupled run or alone.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "fem_solver/app/alone.hpp"
+#include "fem_solver/participant/fem_participant.hpp"
+#include "proto/error.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app("Rail and wheel of a ballasted track (finite elements).", "fem_solver");
+  app.require_subcommand(1);
+  std::string path, endpoint, name = "fem", out = ".";
+  auto* participant = app.add_subcommand("participant", "take part in a coupled run; started by the coupler");
+  participant->add_option("--case", path, "case file")->required();
+  participant->add_option("--endpoint", endpoint, "where the coupler listens")->required();
+  participant->add_option("--out", out, "output folder");
+  participant->add_option("--name", name, "name in the session");
+  auto* check = app.add_subcommand("check", "validate the case's FEM sections and mesh without running");
+  check->add_option("--case", path, "case file")->required();
+  auto* statics = app.add_subcommand("static", "print deflection and seat forces with the wheel standing at its start");
+  statics->add_option("case", path, "case file")->required();
+  auto* alone = app.add_subcommand("run", "run the wheel over the rail alone, every seat on the support model");
+  alone->add_option("case", path, "case file")->required();
+  alone->add_option("--out", out, "output folder; must exist");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
+  }
+
+  auto input = fem::read_fem_case(path);
+  if (check->parsed()) {
+    fem::check_case(input);
+  } else if (statics->parsed()) {
+    fem::print_static(input);
+  } else if (alone->parsed()) {
+    fem::run_alone(input, out);
+  } else {
+    const auto options = proto::read_session_options(endpoint, input.file.hash());
+    fem::FemParticipant body(std::move(input), name);
+    proto::serve(body, options);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const proto::Error& error) {
+    std::fprintf(stderr, "fem_solver: %s\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "fem_solver: internal error: %s\n", error.what());
+    return static_cast<int>(proto::ExitCode::internal);
+  }
+}

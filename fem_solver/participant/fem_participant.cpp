@@ -1,0 +1,176 @@
+#include "fem_solver/participant/fem_participant.hpp"
+
+#include <algorithm>
+
+#include "proto/result/provenance.hpp"
+
+namespace fem {
+namespace {
+
+namespace field = proto::field;
+
+Eigen::VectorXd vector(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+std::vector<double> values(const Eigen::VectorXd& v) {
+  return {v.data(), v.data() + v.size()};
+}
+
+proto::Fact fact(const std::string& key, double number) {
+  return {key, number, ""};
+}
+
+}  // namespace
+
+FemCase read_fem_case(const std::string& path) {
+  auto file = proto::CaseFile::load(path);
+  auto coupling = proto::read_coupling(file);
+  auto seats = proto::read_rail_seats(file);
+  auto fem = read_fem(file, seats);
+  auto wheel = read_wheel(file, fem.material);
+  windows_per_output(coupling.output_interval_s, coupling.window_s);
+  return {std::move(file), std::move(coupling), std::move(seats), std::move(fem), std::move(wheel)};
+}
+
+std::vector<proto::Fact> model_facts(const RailSystem& system, const FemSettings& settings) {
+  const SectionProperties section = system.mesh->section().properties();
+  return {fact("fem.unknowns", system.n_dofs()),
+          fact("fem.elements", system.mesh->n_elements()),
+          fact("fem.element_length_m", system.element_length),
+          fact("fem.rail_length_m", system.mesh->planes().back() - system.mesh->planes().front()),
+          fact("fem.section_area_m2", section.area),
+          fact("fem.section_centroid_m", section.centroid_height),
+          fact("fem.section_inertia_vertical_m4", section.inertia_vertical),
+          fact("fem.section_inertia_lateral_m4", section.inertia_lateral),
+          fact("fem.rail_mass_kg_per_m", section.area * settings.material.density)};
+}
+
+FemParticipant::FemParticipant(FemCase input, std::string name)
+    : input_(std::move(input)),
+      name_(std::move(name)),
+      system_(build_rail_system(input_.fem, input_.seats, SeatOwner::partner)) {}
+
+std::string FemParticipant::build_id() const {
+  return "fem_solver " + proto::project_version();
+}
+
+proto::Capabilities FemParticipant::capabilities() const {
+  proto::Capabilities can;
+  can.robin = can.rollback = can.initialise = true;
+  return can;
+}
+
+void FemParticipant::bump() const {
+  if (progress_) progress_->bump();
+}
+
+proto::Interface FemParticipant::describe() {
+  bump();
+  const CellOperator cells(*system_.mesh, system_.coupled_seats);
+  return {{{field::sleeper_mean_displacement, "m", 3, false},
+           {field::sleeper_mean_velocity, "m/s", 3, false},
+           {field::force_carry, "N", 3, false},
+           {field::force_mean, "N", 3, false},
+           {field::rail_displacement, "m", 3, true},
+           {field::rail_velocity, "m/s", 3, true},
+           {field::force_robin, "N", 3, true},
+           {field::force_used, "N", 3, true}},
+          cells.registration(*system_.mesh, system_.coupled_seats)};
+}
+
+proto::Configured FemParticipant::configure(const proto::Configure& request) {
+  bump();
+  const auto n = static_cast<std::size_t>(system_.cells.rows());
+  if (request.stiffness.size() != n || request.damping.size() != n || request.preload.size() != n ||
+      request.tension_cutoff.size() != n)
+    throw proto::Error(proto::ExitCode::protocol, "Configure does not give the pad of every interface value",
+                       "stiffness, damping, preload, tension_cutoff", "the side that owns the pad registers them");
+  std::vector<proto::PadLaw> laws;
+  for (std::size_t i = 0; i < n; ++i)
+    laws.push_back({request.stiffness[i], request.damping[i], request.preload[i], request.tension_cutoff[i]});
+  mode_ = request.mode;
+  track_ = std::make_unique<WheelTrack>(system_, input_.fem, input_.wheel, request.window_s, std::move(laws));
+  bump();
+  track_->band().at(track_->position_at(static_cast<double>(request.windows)));
+  record_ =
+      std::make_unique<FemRecord>(request.output_directory, input_.file, system_, input_.fem.material, request.window_s,
+                                  windows_per_output(input_.coupling.output_interval_s, request.window_s));
+  smallest_contact_ = largest_contact_ = input_.wheel.static_load;
+  committed_ = track_->state();
+  auto facts = model_facts(system_, input_.fem);
+  facts.push_back(fact("fem.factor_entries", track_->n_factor_entries()));
+  facts.push_back(fact("fem.local_indentation_m_per_n", track_->statics().indentation()));
+  facts.push_back(fact("fem.hertz_coefficient_n_per_m1.5", track_->hertz().coefficient()));
+  return {std::nullopt, std::move(facts)};
+}
+
+WindowInput FemParticipant::window_input(const proto::FieldSet& data) const {
+  WindowInput input;
+  if (mode_ == proto::LoadMode::prescribed_force) {
+    input.prescribed = vector(data.get(field::force_mean));
+    return input;
+  }
+  input.sleeper_displacement = vector(data.get(field::sleeper_mean_displacement));
+  input.sleeper_velocity = vector(data.get(field::sleeper_mean_velocity));
+  input.carry = vector(data.get(field::force_carry));
+  return input;
+}
+
+proto::FieldSet FemParticipant::motion() const {
+  proto::FieldSet data;
+  data.set(field::rail_displacement, values(track_->cell_displacement()));
+  data.set(field::rail_velocity, values(track_->cell_velocity()));
+  return data;
+}
+
+proto::FieldSet FemParticipant::advance(const proto::Advance& request, proto::Progress& progress) {
+  const WindowInput input = window_input(request.data);
+  phase_ = request.phase;
+  WindowOutput output;
+  if (phase_ == proto::Phase::march) {
+    output = track_->march(input);
+  } else {
+    // The first relaxation begins from the static state on the sleeper as it stands.
+    if (!relaxed_ && !input.prescribed) track_->rest(input.sleeper_displacement);
+    relaxed_ = true;
+    output = track_->relax(input);
+  }
+  progress.bump();
+  proto::FieldSet data = motion();
+  data.set(field::force_used, values(output.force_used));
+  data.set(field::force_robin, values(output.force_robin));
+  return data;
+}
+
+void FemParticipant::commit(const proto::Commit&) {
+  committed_ = track_->state();
+  if (phase_ != proto::Phase::march) return;
+  largest_contact_ = std::max(largest_contact_, track_->contact_force());
+  smallest_contact_ = std::min(smallest_contact_, track_->contact_force());
+  lowest_wheel_ = std::min(lowest_wheel_, committed_.wheel_displacement);
+  record_->window(*track_);
+}
+
+void FemParticipant::rollback(const proto::Rollback&) {
+  track_->set_state(committed_);
+}
+
+proto::FieldSet FemParticipant::start() {
+  track_->start();
+  committed_ = track_->state();
+  record_->begin(*track_);
+  proto::FieldSet data = motion();
+  data.set(field::force_robin, values(committed_.last.force));
+  data.set(field::force_used, values(committed_.last.force));
+  return data;
+}
+
+std::vector<proto::Fact> FemParticipant::finish() {
+  record_->close();
+  return {fact("fem.largest_contact_force_n", largest_contact_),
+          fact("fem.smallest_contact_force_n", smallest_contact_),
+          fact("fem.lowest_wheel_displacement_m", lowest_wheel_)};
+}
+
+}  // namespace fem

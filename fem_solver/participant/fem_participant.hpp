@@ -1,0 +1,67 @@
+// The rail and the wheel as the implicit side of a coupled run.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem_solver/assembly/rail_system.hpp"
+#include "fem_solver/model/settings.hpp"
+#include "fem_solver/output/fem_record.hpp"
+#include "fem_solver/time/wheel_track.hpp"
+#include "proto/case/coupling.hpp"
+#include "proto/session/participant.hpp"
+
+namespace fem {
+
+/// Everything the FEM side reads from a case.
+struct FemCase {
+  proto::CaseFile file;
+  proto::Coupling coupling;
+  std::vector<proto::RailSeat> seats;
+  FemSettings fem;
+  WheelSettings wheel;
+};
+
+/// Reads and checks the common sections, `[fem]` and `[wheel]`. Throws proto::Error (config, missing_input, bad_data).
+FemCase read_fem_case(const std::string& path);
+
+/// Figures of rail and model for the summary.
+std::vector<proto::Fact> model_facts(const RailSystem& system, const FemSettings& settings);
+
+/// Adapter from the protocol to WheelTrack. Rolls back to the last commit; does not save.
+class FemParticipant : public proto::Participant {
+ public:
+  FemParticipant(FemCase input, std::string name);
+
+  void watch(proto::Progress& progress) override { progress_ = &progress; }
+  std::string build_id() const override;
+  std::string name() const override { return name_; }
+  proto::Capabilities capabilities() const override;
+  proto::Interface describe() override;
+  proto::Configured configure(const proto::Configure& request) override;
+  proto::FieldSet advance(const proto::Advance& request, proto::Progress& progress) override;
+  void commit(const proto::Commit& request) override;
+  void rollback(const proto::Rollback& request) override;
+  proto::FieldSet start() override;
+  std::vector<proto::Fact> finish() override;
+
+ private:
+  void bump() const;
+  WindowInput window_input(const proto::FieldSet& data) const;
+  proto::FieldSet motion() const;
+
+  FemCase input_;
+  std::string name_;
+  proto::Progress* progress_ = nullptr;
+  RailSystem system_;
+  proto::LoadMode mode_ = proto::LoadMode::robin;
+  std::unique_ptr<WheelTrack> track_;
+  std::unique_ptr<FemRecord> record_;
+  RunState committed_;
+  proto::Phase phase_ = proto::Phase::initialise;
+  bool relaxed_ = false;  // a window of the initialise phase has set the static state
+  double largest_contact_ = 0.0, smallest_contact_ = 0.0, lowest_wheel_ = 0.0;
+};
+
+}  // namespace fem
