@@ -3,3 +3,13 @@ house_test(coupler_scheme_test unit SOURCES unit/coupler_scheme.cpp LIBRARIES co
 house_test(coupler_interface_check_test unit SOURCES unit/coupler_interface_check.cpp LIBRARIES coupler::mapping)
 house_test(coupler_launch_test integration SOURCES integration/coupler_launch.cpp LIBRARIES coupler::launch TIMEOUT 60)
 add_dependencies(coupler_launch_test coupler)
+find_package(nlohmann_json 3.11 REQUIRED)
+house_test(coupler_split_oscillator_test convergence SOURCES convergence/coupler_split_oscillator.cpp
+           LIBRARIES coupler::scheme nlohmann_json::nlohmann_json)
+add_dependencies(coupler_split_oscillator_test coupler oscillator_participant)
+add_executable(wrong_version_participant support/wrong_version_participant.cpp)
+target_link_libraries(wrong_version_participant PRIVATE proto::participant proto_session_sockets house::options)
+set_target_properties(wrong_version_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
+house_test(coupler_faults_test fault SOURCES fault/coupler_faults.cpp
+           LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 240)
+add_dependencies(coupler_faults_test coupler oscillator_participant wrong_version_participant)

@@ -204,6 +204,7 @@ bool CoupledRun::march() {
   take_initial_values();
   supervisor_.set_interruptible(false);
   const auto n_windows = static_cast<std::int64_t>(input_.coupling.n_windows);
+  log_.info("marching through {} windows", n_windows);
   Progress progress("marching", n_windows, input_.coupling.window_s);
   for (std::int64_t n = 0; n < n_windows; ++n) {
     if (supervisor_.stop_requested()) return false;

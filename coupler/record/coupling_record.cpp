@@ -69,6 +69,7 @@ void CouplingRecord::add_initial(const InterfaceState& initial) {
   put_seats("sleeper_displacement", initial.sleeper_displacement);
   put_seats("sleeper_velocity", initial.sleeper_velocity);
   file_.end_row();
+  file_.commit();  // from here on the file can be opened whatever happens
 }
 
 void CouplingRecord::add(const WindowRecord& record, const WindowAudit& audit) {
