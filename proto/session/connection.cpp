@@ -249,7 +249,7 @@ void Connection::leave_after_failure() {
   do {
     deliver_queue();
     if (blocked_) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  } while (blocked_ && !lost_ && Clock::now() < deadline);
+  } while (blocked_ && session_ && !lost_ && Clock::now() < deadline);
 }
 
 }  // namespace proto

@@ -43,6 +43,13 @@ class SessionHarness : public ::testing::Test {
     endpoint = std::make_unique<proto::CouplerEndpoint>(directory.path() + "/run", 1 << 20, admission);
   }
 
+  /// Another run in the same place.
+  void open_again() {
+    endpoint.reset();
+    pending.clear();
+    open();
+  }
+
   proto::SessionOptions options() const {
     proto::SessionOptions result;
     result.endpoint = endpoint->address();
