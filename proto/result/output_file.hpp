@@ -62,7 +62,6 @@ class OutputFile {
   void set_counter(hid_t counter, std::int64_t value);
   void flush();
 
-  bool is_open() const { return static_cast<bool>(file_); }
   /// Closes everything; throws (io_error) if HDF5 reports a failure.
   void close();
 

@@ -1,0 +1,14 @@
+# Contracts of the tree itself: include rules, text, documented schema, shipped cases. Each check has its control.
+set(contract ${CMAKE_CURRENT_SOURCE_DIR}/contract)
+function(contract_test name)
+  add_test(NAME contract_${name} COMMAND ${ARGN})
+  set_tests_properties(contract_${name} PROPERTIES LABELS contract TIMEOUT 60)
+endfunction()
+contract_test(include_rules bash ${contract}/include_rules.sh ${PROJECT_SOURCE_DIR})
+contract_test(include_rules_control bash ${contract}/include_rules_control.sh)
+contract_test(text_hygiene bash ${contract}/text_hygiene.sh ${PROJECT_SOURCE_DIR})
+contract_test(text_hygiene_control bash ${contract}/text_hygiene_control.sh)
+contract_test(schema_documented bash ${contract}/schema_documented.sh ${PROJECT_SOURCE_DIR}/proto/schema/coupling.fbs
+              ${PROJECT_SOURCE_DIR}/proto/README.md)
+contract_test(schema_documented_control bash ${contract}/schema_documented_control.sh
+              ${PROJECT_SOURCE_DIR}/proto/schema/coupling.fbs)
