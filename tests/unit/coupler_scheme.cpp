@@ -104,6 +104,31 @@ TEST(WindowScheme, FirstForceOfE1IsThePadsAtTheInitialValues) {
   EXPECT_TRUE(tests::near_abs(rail.force, 10.0 * 1.5 + 0.2 * -0.3, 1e-14));
 }
 
+TEST(WindowScheme, R1PredictsTheSleepersMeanMotion) {
+  struct Rail : tests::RailModel {
+    using RailModel::RailModel;
+    proto::Result advance(const proto::Advance& request) override {
+      seen = request.data;
+      return RailModel::advance(request);
+    }
+    proto::FieldSet seen;
+  };
+  const tests::Oscillator oscillator;
+  const double h = 0.02;
+  Rail rail(oscillator);
+  tests::SleeperModel sleeper(oscillator);
+  WindowScheme windows(Scheme::robin_explicit, h, 3, {oscillator.pad});
+  windows.start({{oscillator.u}, {oscillator.v}, {oscillator.x}, {oscillator.y}});
+  const auto first = windows.advance(proto::Phase::march, 0, {rail, sleeper});
+  windows.advance(proto::Phase::march, 1, {rail, sleeper});
+  const double x = first.sleeper_displacement[0], y = first.sleeper_velocity[0], a = (y - oscillator.y) / h;
+  EXPECT_TRUE(tests::near_abs(rail.seen.get(proto::field::sleeper_mean_displacement).at(0),
+                              x + h * y / 2 + h * h * a / 6, 1e-15));
+  EXPECT_TRUE(tests::near_abs(rail.seen.get(proto::field::sleeper_mean_velocity).at(0), y + h * a / 2, 1e-15));
+  EXPECT_TRUE(tests::near_abs(rail.seen.get(proto::field::force_carry).at(0),
+                              first.force_robin[0] - first.impulse[0] / h, 1e-12));
+}
+
 TEST(WindowScheme, NamesTheMissingField) {
   struct Mute : coupler::Side {
     proto::Result advance(const proto::Advance&) override { return {}; }
