@@ -1,118 +1,11 @@
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 
+#include "proto/case/node_reader.hpp"
 #include "proto/case/section_data.hpp"
 #include "proto/error.hpp"
 
 namespace proto {
 namespace {
-
-std::string shortest(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
-}
-
-std::string in_words(const Range& range) {
-  const bool bounded = std::isfinite(range.highest);
-  if (bounded && !range.lowest_excluded) return "between " + shortest(range.lowest) + " and " + shortest(range.highest);
-  const std::string low = (range.lowest_excluded ? "greater than " : "at least ") + shortest(range.lowest);
-  return bounded ? low + " and at most " + shortest(range.highest) : low;
-}
-
-bool holds(const Range& range, double value) {
-  return (range.lowest_excluded ? value > range.lowest : value >= range.lowest) && value <= range.highest;
-}
-
-std::string type_in_words(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "an array";
-    case toml::node_type::string:
-      return "a text";
-    case toml::node_type::integer:
-      return "a whole number";
-    case toml::node_type::floating_point:
-      return "a number";
-    case toml::node_type::boolean:
-      return "a boolean";
-    default:
-      return "a date or time";
-  }
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-/// Reads one node of a section; every failure names the node's own place.
-class NodeReader {
- public:
-  NodeReader(const Section::Data& data, const toml::node& node, std::string key)
-      : data_(data), node_(node), key_(std::move(key)) {}
-
-  double number(const Range& range) const {
-    if (!node_.is_number()) fail("a number is wanted, found " + type_in_words(node_));
-    const double value = *node_.value<double>();
-    if (!std::isfinite(value)) fail("a finite number is wanted, found " + shortest(value));
-    check(range, value);
-    return value;
-  }
-
-  std::int64_t integer(const Range& range) const {
-    if (!node_.is_integer()) fail("a whole number is wanted, found " + type_in_words(node_));
-    const std::int64_t value = **node_.as_integer();
-    check(range, static_cast<double>(value));
-    return value;
-  }
-
-  bool boolean() const {
-    if (!node_.is_boolean()) fail("true or false is wanted, found " + type_in_words(node_));
-    return **node_.as_boolean();
-  }
-
-  std::string text() const {
-    if (!node_.is_string()) fail("a text is wanted, found " + type_in_words(node_));
-    return **node_.as_string();
-  }
-
-  std::string choice(const std::vector<std::string>& choices) const {
-    const auto value = text();
-    for (const auto& name : choices)
-      if (name == value) return value;
-    const auto nearest = nearest_name(value, choices);
-    fail("'" + value + "' is not one of: " + joined(choices), nearest.empty() ? "" : "did you mean '" + nearest + "'?");
-  }
-
-  /// One value per element, each read by `read(NodeReader)`.
-  template <class Read>
-  auto elements(Read read, const char* what) const {
-    const auto* array = node_.as_array();
-    if (!array) fail(std::string("an array of ") + what + " is wanted, found " + type_in_words(node_));
-    std::vector<decltype(read(*this))> values;
-    for (const auto& element : *array)
-      values.push_back(read(NodeReader(data_, element, key_ + "[" + std::to_string(values.size()) + "]")));
-    return values;
-  }
-
-  [[noreturn]] void fail(const std::string& problem, const std::string& advice = {}) const {
-    throw Error(ExitCode::config, problem, data_.where(node_.source(), key_), advice);
-  }
-
- private:
-  void check(const Range& range, double value) const {
-    if (!holds(range, value)) fail("the value must be " + in_words(range) + ", found " + shortest(value));
-  }
-
-  const Section::Data& data_;
-  const toml::node& node_;
-  std::string key_;
-};
 
 std::optional<NodeReader> offered(Section::Data& data, const std::string& key) {
   data.asked.insert(key);
@@ -123,18 +16,14 @@ std::optional<NodeReader> offered(Section::Data& data, const std::string& key) {
 
 NodeReader required(Section::Data& data, const std::string& key) {
   if (const auto reader = offered(data, key)) return *reader;
-  std::string advice = "add it";
-  if (data.table) {
-    std::vector<std::string> present;
+  std::vector<std::string> unread;  // a misspelt key is among those that nobody has asked for
+  if (data.table)
     for (const auto& item : *data.table)
-      if (!data.asked.count(std::string(item.first.str()))) present.emplace_back(item.first.str());
-    const auto nearest = nearest_name(key, present);
-    if (!nearest.empty()) {
-      throw Error(ExitCode::config, "unknown key, and '" + key + "' is missing", data.where(nearest),
-                  "did you mean '" + key + "'?");
-    }
-  }
-  throw Error(ExitCode::config, "missing key", data.where(key), advice);
+      if (!data.asked.count(std::string(item.first.str()))) unread.emplace_back(item.first.str());
+  const auto nearest = nearest_name(key, unread);
+  if (nearest.empty()) throw Error(ExitCode::config, "missing key", data.where(key), "add it");
+  throw Error(ExitCode::config, "missing key '" + key + "', found '" + nearest + "'", data.where(nearest),
+              "did you mean '" + key + "'?");
 }
 
 void check_length(const Section& section, const std::string& key, std::size_t found, std::size_t wanted) {

@@ -37,7 +37,7 @@ class Participant {
   virtual ~Participant() = default;
 
   /// First call: the counter that the heartbeats carry. A solver that works for long outside advance() (reading a bed
-  /// in configure(), writing in commit()) keeps the reference and bumps it there too.
+  /// in configure(), writing in commit()) keeps the reference, which lives until serve() ends, and bumps it there too.
   virtual void watch(Progress& progress);
 
   /// Version of the solver for the record, e.g. "qdem_solver 0.1.0".
