@@ -16,6 +16,7 @@ struct Oscillator {
   double rail_mass = 1.0, rail_stiffness = 1.0, sleeper_mass = 0.5, sleeper_stiffness = 4.0;
   proto::PadLaw pad{10.0, 0.2, 0.0, false};
   double u = 1.0, v = 0.0, x = -0.5, y = 0.3;
+  double rail_load = 0.0;  ///< constant [N]; not part of the closed form
 };
 
 /// (u, u', x, x') at `time` by the matrix exponential.
@@ -34,8 +35,10 @@ class RailModel : public coupler::Side {
  public:
   explicit RailModel(const Oscillator& o) : o_(o), u_(o.u), v_(o.v) {}
   proto::Result advance(const proto::Advance& request) override;
-  void commit(const proto::Commit& request) override { committed = request.window; }
-  std::int64_t committed = -1;
+  void commit(const proto::Commit&) override {}
+  void damp(double factor) { v_ *= factor; }
+  double displacement() const { return u_; }
+  double velocity() const { return v_; }
 
  private:
   Oscillator o_;
@@ -47,8 +50,10 @@ class SleeperModel : public coupler::Side {
  public:
   explicit SleeperModel(const Oscillator& o) : o_(o), x_(o.x), y_(o.y) {}
   proto::Result advance(const proto::Advance& request) override;
-  void commit(const proto::Commit& request) override { committed = request.window; }
-  std::int64_t committed = -1;
+  void commit(const proto::Commit&) override {}
+  void damp(double factor) { y_ *= factor; }
+  double displacement() const { return x_; }
+  double velocity() const { return y_; }
 
  private:
   Oscillator o_;
@@ -59,9 +64,9 @@ inline proto::Result RailModel::advance(const proto::Advance& request) {
   const double h = request.window_s, k = o_.pad.stiffness, c = o_.pad.damping;
   const bool robin = request.data.has(proto::field::force_carry);
   const double carry = robin ? request.data.get(proto::field::force_carry).at(0) : 0.0;
-  // M (v1 - v0)/H + K (u0 + u1)/2 = -f_used with u1 = u0 + H (v0 + v1)/2, solved for v1.
+  // M (v1 - v0)/H + K (u0 + u1)/2 = F - f_used with u1 = u0 + H (v0 + v1)/2, solved for v1.
   double left = o_.rail_mass / h + o_.rail_stiffness * h / 4;
-  double right = o_.rail_mass / h * v_ - o_.rail_stiffness * (u_ + h * v_ / 4);
+  double right = o_.rail_load + o_.rail_mass / h * v_ - o_.rail_stiffness * (u_ + h * v_ / 4);
   double x = 0, y = 0;
   if (robin) {
     x = request.data.get(proto::field::sleeper_mean_displacement).at(0);

@@ -18,7 +18,6 @@ constexpr double end_time = 4.0;
 struct Run {
   double error = 0.0, energy_defect = 0.0, momentum_defect = 0.0;
   double raw_defect = 0.0, momentum_sum = 0.0;  // R_n and sum of P at the last window
-  std::int64_t rail_committed = -1;
 };
 
 Run run(Scheme scheme, int n_windows, std::uint32_t sub_cycles) {

@@ -1,0 +1,61 @@
+// The initialise phase through three processes: rest before time 0, and nothing moves after it.
+#include "proto/error.hpp"
+#include "proto/result/reader.hpp"
+#include "tests/support/coupled_run.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace {
+
+/// Rail on 1 N/m with a load of -13.5 N, pad 10 N/m, sleeper on 4 N/m: f = load / (1 + kA (1/kp + 1/kB)).
+constexpr double rest_force = -10.0, rest_sleeper = -2.5, rest_rail = -3.5;
+
+tests::OscillatorCase relaxing(const std::string& scheme, int max_windows) {
+  const auto command = [](const char* side) {
+    return "[\"" + tests::bin_folder + "/../test_bin/relaxing_participant\", \"--side\", \"" + side + "\"]";
+  };
+  tests::OscillatorCase variant;
+  variant.scheme = scheme;
+  variant.qdem_command = command("sleeper");
+  variant.fem_command = command("rail");
+  variant.more_coupling =
+      "[coupling.initialise]\nmin_windows = 30\ncheck_windows = 40\ntolerance = 1e-3\nmax_windows = " +
+      std::to_string(max_windows);
+  return variant;
+}
+
+class Initialise : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Initialise, BringsTheSystemToRestAndKeepsItThere) {
+  tests::CoupledRun run(relaxing(GetParam(), 5000).text());
+  ASSERT_EQ(run.run().value_or(-1), 0) << run.message();
+  const auto summary = run.summary();
+  EXPECT_GE(summary["initialise"]["windows"], 40);
+  EXPECT_LT(summary["initialise"]["windows"], 5000);
+  EXPECT_LE(summary["initialise"]["change_relative"], 1e-3);
+  EXPECT_TRUE(tests::near_rel(summary["rail_seats"][0]["max_force_n"], -rest_force, 2e-3));
+
+  const proto::ResultReader record(run.out() + "/coupling.h5");
+  const auto rail = record.read("seats/seat/rail_displacement").values;
+  const auto sleeper = record.read("seats/seat/sleeper_displacement").values;
+  const auto impulse = record.read("seats/seat/impulse").values;
+  ASSERT_EQ(record.n_committed(), 161u);
+  EXPECT_EQ(record.read("window").values.front(), -1.0);
+  EXPECT_TRUE(tests::near_rel(rail[2], rest_rail, 2e-3));
+  EXPECT_TRUE(tests::near_rel(sleeper[2], rest_sleeper, 2e-3));
+  for (std::size_t row = 1; row < record.n_committed(); ++row)
+    ASSERT_TRUE(tests::near_rel(impulse[3 * row + 2] / 0.025, rest_force, 2e-3)) << "row " << row;
+}
+
+INSTANTIATE_TEST_SUITE_P(WithEach, Initialise, ::testing::Values("R1", "E1"));
+
+TEST(InitialiseFailure, WithoutRestTheRunStopsAndSaysHowFarItWas) {
+  tests::CoupledRun run(relaxing("R1", 45).text());
+  EXPECT_EQ(run.run().value_or(-1), static_cast<int>(proto::ExitCode::numerics));
+  EXPECT_TRUE(tests::contains(run.message(), "did not come to rest: over the last 40 of 45 windows")) << run.message();
+  const auto summary = run.summary();
+  EXPECT_EQ(summary["status"], "failed");
+  EXPECT_EQ(summary["windows"], 0);
+  EXPECT_GT(summary["initialise"]["change_relative"], 1e-3);
+}
+
+}  // namespace
