@@ -55,7 +55,7 @@ struct FieldSeriesOptions {
   std::vector<StaticField> static_fields;
   std::vector<Column> histories;  ///< columns of the group /TimeSeries; empty: no such group
   Attributes attributes;          ///< of the file's root
-  std::size_t history_rows_per_commit = 200;
+  std::size_t history_rows_per_commit = 20;
 };
 
 /// An HDF5 file with the fields of one participant. Every dataset is created by create(); steps are appended only.

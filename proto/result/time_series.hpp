@@ -35,7 +35,7 @@ class TimeSeriesFile {
   /// Creates (or replaces) `path`; its folder must exist. end_row() commits by itself each `rows_per_commit` rows.
   /// Throws proto::Error: cannot_create with the path and the reason.
   static TimeSeriesFile create(const std::string& path, const std::vector<Column>& columns,
-                               const Attributes& attributes = {}, std::size_t rows_per_commit = 200);
+                               const Attributes& attributes = {}, std::size_t rows_per_commit = 20);
   TimeSeriesFile(TimeSeriesFile&&) noexcept;
   TimeSeriesFile& operator=(TimeSeriesFile&&) noexcept;
   /// Closes without throwing; rows not yet committed are lost. Call close() to have them written and errors told.
