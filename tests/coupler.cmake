@@ -19,3 +19,6 @@ set_target_properties(relaxing_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY $
 house_test(coupler_initialise_test integration SOURCES integration/coupler_initialise.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 60)
 add_dependencies(coupler_initialise_test coupler relaxing_participant)
+house_test(coupler_supervisor_test integration SOURCES integration/coupler_supervisor.cpp
+           LIBRARIES coupler::supervise nlohmann_json::nlohmann_json TIMEOUT 60)
+add_dependencies(coupler_supervisor_test coupler oscillator_participant)

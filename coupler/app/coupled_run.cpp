@@ -14,7 +14,7 @@ namespace coupler {
 namespace {
 
 namespace field = proto::field;
-constexpr double grace_s = 2.0;  // from SIGTERM to SIGKILL
+constexpr double grace_s = 1.5;  // from SIGTERM to SIGKILL
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

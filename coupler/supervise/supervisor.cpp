@@ -97,10 +97,12 @@ void Supervisor::check_exits() {
 void Supervisor::report_death(const std::string& name, const ChildExit& exit) {
   // A fault it sent before it went says more than its exit code; take() throws it.
   const auto start = Clock::now();
-  while (seconds_since(start) < 0.2)
+  while (seconds_since(start) < 0.2 && !known_.at(name).finished)
     for (const auto& event : endpoint_.wait(0.05))
       if (event.message) take(event);
   const auto& known = known_.at(name);
+  // Its Bye was still on the wire when the kernel told of its exit: it went as it should.
+  if (known.finished && exit.code == 0 && exit.signal == 0) return;
   const auto words = last_words(known.log_path);
   auto problem = fmt::format("{} ({}) {} in {}", name, known.program, exit.text(), stage_);
   if (!known.connected) problem += turned_away_.empty() ? ", before it connected" : ", turned away: " + turned_away_;
@@ -114,7 +116,7 @@ void Supervisor::report_loss(const proto::EndpointEvent& event) {
   const auto start = Clock::now();
   while (event.code == static_cast<int>(ExitCode::unavailable) && seconds_since(start) < 1.0) {
     children_.wait(0.05);
-    if (const auto exit = children_.exit_of(event.participant)) report_death(event.participant, *exit);
+    if (const auto exit = children_.exit_of(event.participant)) return report_death(event.participant, *exit);
   }
   const auto& known = known_.at(event.participant);
   throw ParticipantError(event.participant, run_code(event.code),
@@ -211,7 +213,7 @@ void Supervisor::abandon(int code, const std::string& text) noexcept {
     }
   }
   const auto start = Clock::now();
-  while (children_.running() && seconds_since(start) < 1.0) children_.wait(0.05);
+  while (children_.running() && seconds_since(start) < 0.7) children_.wait(0.05);
 }
 
 }  // namespace coupler

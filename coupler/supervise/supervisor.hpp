@@ -99,8 +99,8 @@ class Supervisor {
   void take(const proto::EndpointEvent& event);
   void check_signals() const;
   void check_exits();
-  [[noreturn]] void report_death(const std::string& name, const ChildExit& exit);
-  [[noreturn]] void report_loss(const proto::EndpointEvent& event);
+  void report_death(const std::string& name, const ChildExit& exit);
+  void report_loss(const proto::EndpointEvent& event);
   void check_pulse(const std::string& name, bool set_up, double waited_s);
   proto::Message next(const std::string& name, bool set_up);
   [[noreturn]] void refuse(const std::string& name, const proto::Message& message, const char* wanted);
