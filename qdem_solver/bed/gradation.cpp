@@ -23,7 +23,7 @@ double Gradation::passing_at(double size) const {
   return interpolate(sizes, passing, size);
 }
 
-std::vector<Stone> draw_stones(const Gradation& gradation, const std::vector<double>& unit_volumes, double volume,
+std::vector<Stone> draw_stones(const Gradation& gradation, int n_templates, const StoneVolume& volume_of, double volume,
                                Random& random) {
   const std::size_t n_intervals = gradation.sizes.size() - 1;
   std::vector<double> drawn(n_intervals, 0.0);
@@ -39,8 +39,8 @@ std::vector<Stone> draw_stones(const Gradation& gradation, const std::vector<dou
     const double low = std::pow(gradation.sizes[lacking], -2), high = std::pow(gradation.sizes[lacking + 1], -2);
     Stone stone;
     stone.size = 1 / std::sqrt(random.uniform(high, low));
-    stone.template_id = static_cast<int>(random.index(unit_volumes.size()));
-    const double own = unit_volumes[stone.template_id] * std::pow(stone.size, 3);
+    stone.template_id = static_cast<int>(random.index(n_templates));
+    const double own = volume_of(stone.template_id, stone.size);
     drawn[lacking] += own, total += own;
     stones.push_back(stone);
   }

@@ -23,10 +23,12 @@ struct Stone {
   double size = 0.0;  ///< sieve size: its middle extent [m]
 };
 
+/// Solid volume of a stone of a template and a sieve size [m3].
+using StoneVolume = std::function<double(int template_id, double size)>;
+
 /// Draws stones until their solid volume reaches `volume` [m3]. Each stone comes from the sieve interval that lacks
-/// most of its share; within an interval sizes are drawn so that mass spreads evenly. Templates take turns at random.
-/// `unit_volumes`: of every template at scale 1 [m3].
-std::vector<Stone> draw_stones(const Gradation& gradation, const std::vector<double>& unit_volumes, double volume,
+/// most of its share; within an interval sizes are drawn so that mass spreads evenly. Templates are drawn evenly.
+std::vector<Stone> draw_stones(const Gradation& gradation, int n_templates, const StoneVolume& volume_of, double volume,
                                Random& random);
 
 }  // namespace qdem::bed

@@ -88,6 +88,13 @@ double step_of_unit_rock(const Template& shape) {
   return largest_stable_step(template_rates(shape, unit));
 }
 
+/// Share of the stone's mass that its lightest surface node carries.
+double lightest_corner(const Template& shape) {
+  double least = shape.volume();
+  for (const int node : shape.surface_nodes) least = std::min(least, shape.node_volumes[node]);
+  return least / shape.volume();
+}
+
 Candidate best_mesh(const std::string& name, const Polyhedron& stone, const StoneShapes& wanted) {
   Candidate best;
   int least_seen = 1 << 30, most_seen = 0;
@@ -96,6 +103,7 @@ Candidate best_mesh(const std::string& name, const Polyhedron& stone, const Ston
       Template shape = mesh_polyhedron(name, stone, size);
       least_seen = std::min(least_seen, shape.n_tets()), most_seen = std::max(most_seen, shape.n_tets());
       if (shape.n_tets() < wanted.least_tets || shape.n_tets() > wanted.most_tets) continue;
+      if (lightest_corner(shape) < 0.0025) continue;  // its contact would rule the step
       const double step = step_of_unit_rock(shape);
       if (step > best.step) best.step = step, best.shape = std::move(shape);
     } catch (const proto::Error& error) {
@@ -105,7 +113,8 @@ Candidate best_mesh(const std::string& name, const Polyhedron& stone, const Ston
   if (best.step > 0) {
     best.refusal.clear();
   } else if (best.refusal.empty()) {
-    best.refusal = std::to_string(least_seen) + " to " + std::to_string(most_seen) + " tetrahedra";
+    best.refusal =
+        std::to_string(least_seen) + " to " + std::to_string(most_seen) + " tetrahedra, or a corner too light";
   }
   return best;
 }
@@ -186,7 +195,7 @@ Template mesh_polyhedron(const std::string& name, const Polyhedron& shape, doubl
 StoneTemplates make_stone_templates(const StoneShapes& wanted) {
   StoneTemplates result;
   std::vector<Candidate> candidates;
-  const int n_candidates = wanted.n_templates + std::max(4, wanted.n_templates / 2);
+  const int n_candidates = 2 * wanted.n_templates + 4;
   for (int i = 0; i < n_candidates; ++i) {
     Random random(wanted.seed, 500 + i);
     const double elongation = random.uniform(wanted.elongation.lowest, wanted.elongation.highest);

@@ -115,7 +115,8 @@ struct ContactStage::Data {
   }
 };
 
-ContactStage::ContactStage(const Model& model, double skin) {
+ContactStage::ContactStage(const Model& model) {
+  double skin = model.contact.skin;
   if (!(skin > 0)) skin = model.contact.rounding > 0 ? model.contact.rounding : 1e-3;
   data_ = std::make_unique<Data>(model, skin);
 }

@@ -22,9 +22,9 @@ struct ContactReport {
 /// Every sum is taken in an order fixed by the candidate list, so results do not depend on the number of threads.
 class ContactStage {
  public:
-  /// `skin` [m]: how much farther than touching the candidate list reaches; 0: the contact law's rounding. The model
-  /// must outlive the stage; its contact law and its planes' velocities may change between calls, nothing else.
-  explicit ContactStage(const Model& model, double skin = 0.0);
+  /// The model must outlive the stage; its contact law (not the skin) and its planes' points and velocities may change
+  /// between calls, nothing else.
+  explicit ContactStage(const Model& model);
   ~ContactStage();
 
   /// Adds `travel` [m], an upper bound of how far any node moved since the last call, to the list's age; rebuilds the

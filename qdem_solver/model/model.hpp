@@ -93,6 +93,7 @@ struct ContactLaw {
   double damping_ratio = 0.0;        ///< zeta of the contact dashpots, against the effective mass of the two features [-]
   double friction = 0.0;             ///< [-]
   double rounding = 0.0;             ///< radius by which every surface is rounded [m]
+  double skin = 0.0;                 ///< how much farther than touching the candidate list reaches [m]; 0: the rounding
 };
 
 /// One pad value on the QDEM side: weights of sleeper particles and the direction it measures. See proto::RailSeat.

@@ -1,0 +1,65 @@
+// Pours, tamps and relaxes a bed with the QDEM engine.
+#pragma once
+
+#include <vector>
+
+#include "qdem_solver/bed/bed.hpp"
+#include "qdem_solver/bed/loose_stack.hpp"
+#include "qdem_solver/bed/settings.hpp"
+
+namespace qdem::bed {
+
+/// Builds one bed; README.md describes the stages. Use once: `Builder(settings, physics).build()`.
+class Builder {
+ public:
+  Builder(const Settings& settings, const BedPhysics& physics);
+
+  /// The bed at rest. Throws proto::Error: bad_data when it misses a limit of the case, numerics from the engine.
+  Bed build();
+
+ private:
+  /// How soft stones are in a stage, and how the motion is damped.
+  struct Softness {
+    double young, stiffness;  ///< of stones [Pa], of contacts [N/m]
+    double friction, damping_ratio;
+    double local_damping, drag;
+  };
+  /// When a run may end before its last step.
+  struct Rest {
+    double speed = 0.0;       ///< root mean square over mass [m/s]; 0: never
+    double unbalanced = 0.0;  ///< ratio; 0: not asked
+    double kinetic = 0.0;     ///< [J]; 0: not asked
+  };
+
+  void make_stones();
+  void pour_layer();
+  void pour_crib();
+  void bed_in();
+  void harden();
+  void come_to_rest();
+  void finish();
+  void check_limits() const;
+
+  void add_planes();
+  void soften(const Softness& softness, double preload);
+  void add_stones(const std::vector<Stone>& stones, const std::vector<Rectangle>& floor, double bottom);
+  void hold_sleeper(unsigned mask);
+  void drop_contacts();
+  void drop_spare_lanes();
+  double run(double least_time, double most_time, const Rest& rest);
+  void tamp(double level);
+  double top_of_stones() const;
+  double mass_of_stones() const;
+  double seat_height() const;
+  double envelope_volume(int template_id, double size) const;
+
+  const Settings& settings_;
+  const BedPhysics& physics_;
+  Random random_;
+  std::vector<Stone> layer_, crib_;
+  Model model_;
+  State state_;
+  BedReport report_;
+};
+
+}  // namespace qdem::bed

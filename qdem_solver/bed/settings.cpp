@@ -1,0 +1,119 @@
+#include "qdem_solver/bed/settings.hpp"
+
+#include <algorithm>
+
+namespace qdem::bed {
+namespace {
+
+using proto::Range;
+using proto::Section;
+
+constexpr Range share{0.0, 1.0};
+
+ShapeRange read_range(const Section& bed, const std::string& key, const std::vector<double>& fallback, Range range) {
+  const auto values = bed.numbers_or(key, fallback, range);
+  if (values.size() != 2 || values[0] > values[1]) bed.fail(key, "a range is two numbers, the lower first");
+  return {values[0], values[1]};
+}
+
+Gradation read_gradation(const Section& bed) {
+  Gradation gradation;
+  gradation.sizes = bed.numbers_or("sieve_sizes_m", {0.045, 0.056, 0.063, 0.071, 0.080}, Range::positive());
+  gradation.passing = bed.numbers_or("sieve_passing_percent", {0, 25, 55, 85, 100}, Range::between(0, 100));
+  const auto n = gradation.sizes.size();
+  if (n < 2) bed.fail("sieve_sizes_m", "a gradation needs two sieves or more");
+  if (gradation.passing.size() != n) {
+    bed.fail("sieve_passing_percent", "as many shares as sieves are needed, " + std::to_string(n));
+  }
+  for (double& passing : gradation.passing) passing /= 100;
+  for (std::size_t i = 1; i < n; ++i) {
+    if (!(gradation.sizes[i] > gradation.sizes[i - 1])) bed.fail("sieve_sizes_m", "sieves must ascend");
+    if (gradation.passing[i] < gradation.passing[i - 1]) bed.fail("sieve_passing_percent", "shares must not descend");
+  }
+  if (gradation.passing.front() != 0 || gradation.passing.back() != 1) {
+    bed.fail("sieve_passing_percent", "the smallest sieve must pass 0 and the largest 100");
+  }
+  return gradation;
+}
+
+StoneShapes read_shapes(const Section& bed, std::uint64_t seed) {
+  StoneShapes shapes;
+  shapes.seed = seed;
+  shapes.n_templates = static_cast<int>(bed.integer_or("templates", 24, Range::between(1, 200)));
+  shapes.elongation = read_range(bed, "elongation", {1.1, 1.7}, Range::between(1, 3));
+  shapes.flatness = read_range(bed, "flatness", {0.55, 0.95}, Range::between(0.3, 1));
+  const auto tets = read_range(bed, "elements_per_stone", {50, 100}, Range::between(20, 2000));
+  shapes.least_tets = static_cast<int>(tets.lowest), shapes.most_tets = static_cast<int>(tets.highest);
+  return shapes;
+}
+
+void read_geometry(const Section& bed, Settings& s) {
+  bed.choice_or("sleeper", "box", {"box"});
+  s.sleeper_length = bed.number_or("sleeper_length_m", 2.4, Range::positive());
+  s.sleeper_width = bed.number_or("sleeper_width_m", 0.26, Range::positive());
+  s.sleeper_height = bed.number_or("sleeper_height_m", 0.2, Range::positive());
+  s.sleeper_cells = static_cast<int>(bed.integer_or("sleeper_cells_through_height", 4, Range::between(1, 20)));
+  s.depth = bed.number_or("depth_m", 0.2, Range::positive());
+  s.crib_height = bed.number_or("crib_height_m", 0.15, Range::not_negative());
+  s.shoulder_width = bed.number_or("shoulder_width_m", 0.2, Range::not_negative());
+  s.shoulder_slope = bed.number_or("shoulder_slope", 1.5, Range::between(0, 4));
+  if (s.crib_height > s.sleeper_height) {
+    bed.fail("crib_height_m", "the crib would bury the sleeper, whose height is " + std::to_string(s.sleeper_height));
+  }
+}
+
+void read_procedure(const Section& bed, Settings& s) {
+  s.target_porosity = bed.number_or("target_porosity", 0.41, Range::between(0.3, 0.6));
+  s.pour_speed = bed.number_or("pour_speed_m_per_s", 1.2, Range::between(0.1, 5));
+  s.pour_young = bed.number_or("pour_young_pa", 6e7, Range::positive());
+  s.pour_stiffness = bed.number_or("pour_stiffness_n_per_m", 6e4, Range::positive());
+  s.pour_friction = bed.number_or("pour_friction", 0.2, Range::not_negative());
+  s.preload = bed.number_or("preload_n", 2000, Range::not_negative());
+  s.ramp_levels = static_cast<int>(bed.integer_or("ramp_levels", 8, Range::between(1, 50)));
+  s.ramp_steps = static_cast<int>(bed.integer_or("ramp_steps", 1500, Range::between(10, 1e6)));
+  s.rest_steps = static_cast<int>(bed.integer_or("rest_steps", 30000, Range::between(10, 1e7)));
+}
+
+void read_limits(const Section& bed, Settings& s) {
+  const auto porosity = read_range(bed, "porosity_limits", {0.38, 0.45}, share);
+  s.porosity_lowest = porosity.lowest, s.porosity_highest = porosity.highest;
+  s.unbalanced_limit = bed.number_or("unbalanced_limit", 0.01, Range::positive());
+  s.kinetic_limit = bed.number_or("kinetic_energy_limit_j", 1e-3, Range::positive());
+  s.penetration_limit = bed.number_or("penetration_limit_m", 0, Range::not_negative());
+  s.tilt_limit = bed.number_or("sleeper_tilt_limit_rad", 5e-3, Range::positive());
+}
+
+void check_seats(const Section& bed, const Settings& s) {
+  for (const auto& seat : s.seats) {
+    const double y = std::abs(seat.origin[1]);
+    if (y + seat.half_lengths[1] > s.half_length()) {
+      bed.fail("sleeper_length_m", "rail seat '" + seat.name + "' ends " +
+                                       std::to_string(y + seat.half_lengths[1] - s.half_length()) +
+                                       " m beyond the end of the sleeper");
+    }
+    if (seat.half_lengths[0] > s.sleeper_width / 2) {
+      bed.fail("sleeper_width_m", "rail seat '" + seat.name + "' is wider than the sleeper");
+    }
+  }
+  if (s.sleeper_width >= s.spacing) bed.fail("sleeper_width_m", "the sleeper fills the bay");
+}
+
+}  // namespace
+
+Settings read_settings(const proto::CaseFile& file) {
+  const Section bed = file.section("bed"), track = file.section("track");
+  Settings s;
+  s.seed = static_cast<std::uint64_t>(bed.integer_or("seed", 1, Range::between(0, 1e9)));
+  s.spacing = track.number("sleeper_spacing_m", Range::positive());
+  s.seats = proto::read_rail_seats(file);
+  read_geometry(bed, s);
+  s.gradation = read_gradation(bed);
+  s.shapes = read_shapes(bed, s.seed);
+  read_procedure(bed, s);
+  read_limits(bed, s);
+  bed.finish();
+  check_seats(bed, s);
+  return s;
+}
+
+}  // namespace qdem::bed

@@ -1,0 +1,59 @@
+// `[bed]` of the case file and the geometry it implies.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "proto/case/case_file.hpp"
+#include "proto/case/rail_seat.hpp"
+#include "qdem_solver/bed/gradation.hpp"
+#include "qdem_solver/bed/stone_shape.hpp"
+
+namespace qdem::bed {
+
+/// Every key of `[bed]`, SI. README.md lists the keys with their defaults.
+struct Settings {
+  std::uint64_t seed = 1;
+
+  double sleeper_length = 0, sleeper_width = 0, sleeper_height = 0;  ///< whole sleeper [m]
+  int sleeper_cells = 4;                                             ///< through its height
+
+  double depth = 0;           ///< of ballast under the sleeper [m]
+  double crib_height = 0;     ///< of ballast beside the sleeper, above its bottom [m]
+  double shoulder_width = 0;  ///< beyond the sleeper's end, at crib height [m]
+  double shoulder_slope = 0;  ///< horizontal per vertical [-]
+
+  Gradation gradation;
+  StoneShapes shapes;
+
+  double target_porosity = 0;  ///< the stones are drawn for [-]
+  double pour_speed = 0;       ///< drag limits falling stones to it [m/s]
+  double pour_young = 0;       ///< of stones while they are poured [Pa]
+  double pour_stiffness = 0;   ///< contact stiffness while they are poured [N/m]
+  double pour_friction = 0;    ///< while they are poured and tamped [-]
+  double preload = 0;          ///< extra weight on the half sleeper while it beds in [N]
+  int ramp_levels = 0;         ///< from soft to real stiffness
+  int ramp_steps = 0;          ///< of each level
+  int rest_steps = 0;          ///< at most, at real stiffness
+
+  double porosity_lowest = 0, porosity_highest = 0;  ///< limits of the result [-]
+  double unbalanced_limit = 0;                       ///< of the result [-]
+  double kinetic_limit = 0;                          ///< of the result [J]
+  double penetration_limit = 0;                      ///< of the result; 0: twice the contact rounding [m]
+  double tilt_limit = 0;                             ///< of the result [rad]
+
+  double spacing = 0;  ///< of sleepers, the bay's length [m]
+  std::vector<proto::RailSeat> seats;
+
+  double half_length() const { return sleeper_length / 2; }
+  double ground_level() const { return -sleeper_height - depth; }      ///< z [m]
+  double crib_level() const { return -sleeper_height + crib_height; }  ///< z [m]
+  /// Where a vertical wall holds as much ballast as the slope does [m].
+  double wall() const { return half_length() + shoulder_width + shoulder_slope * (depth + crib_height) / 2; }
+};
+
+/// Reads and checks [bed], [track] and the rail seats. Throws proto::Error (config).
+Settings read_settings(const proto::CaseFile& file);
+
+}  // namespace qdem::bed

@@ -1,0 +1,246 @@
+#include "qdem_solver/output/bed_file.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "proto/error.hpp"
+#include "qdem_solver/output/hdf5_store.hpp"
+
+namespace qdem {
+namespace {
+
+using Eigen::Vector3d;
+using Integers = std::vector<long long>;
+using Reals = std::vector<double>;
+
+void append(Reals& values, const Vector3d& v) {
+  values.insert(values.end(), {v[0], v[1], v[2]});
+}
+Vector3d triple(const Reals& values, std::size_t at) {
+  return {values.at(at), values.at(at + 1), values.at(at + 2)};
+}
+
+void put_templates(Hdf5Store& file, const Model& model) {
+  std::vector<std::string> names;
+  for (std::size_t t = 0; t < model.templates.size(); ++t) {
+    const Template& shape = model.templates[t];
+    const std::string group = "templates/" + std::to_string(t);
+    Reals nodes;
+    for (const Vector3d& x : shape.nodes) append(nodes, x);
+    Integers tets;
+    for (const auto& tet : shape.tets) tets.insert(tets.end(), tet.begin(), tet.end());
+    file.put(group + "/nodes", nodes, "m");
+    file.put(group + "/tets", tets);
+    names.push_back(shape.name);
+  }
+  file.put("templates/names", names);
+}
+
+void take_templates(const Hdf5Store& file, Model& model) {
+  const auto names = file.lines("templates/names");
+  for (std::size_t t = 0; t < names.size(); ++t) {
+    const std::string group = "templates/" + std::to_string(t);
+    const Reals nodes = file.reals(group + "/nodes");
+    const Integers tets = file.integers(group + "/tets");
+    std::vector<Vector3d> places;
+    for (std::size_t i = 0; i + 2 < nodes.size(); i += 3) places.push_back(triple(nodes, i));
+    std::vector<std::array<int, 4>> elements;
+    for (std::size_t e = 0; e + 3 < tets.size(); e += 4) {
+      elements.push_back({int(tets[e]), int(tets[e + 1]), int(tets[e + 2]), int(tets[e + 3])});
+    }
+    model.templates.push_back(make_template(names[t], std::move(places), std::move(elements)));
+  }
+}
+
+void put_bodies(Hdf5Store& file, const Model& model) {
+  Integers ids;
+  Reals scales;
+  std::vector<std::string> names;
+  for (const Body& body : model.bodies) {
+    ids.insert(ids.end(), {static_cast<long long>(body.kind), body.template_id, body.material_id});
+    scales.push_back(body.scale);
+    names.push_back(body.name);
+  }
+  file.put("bodies/kind_template_material", ids);
+  file.put("bodies/scale", scales, "1");
+  file.put("bodies/names", names);
+  Integers fixities;
+  for (const Fixity& f : model.fixities) fixities.insert(fixities.end(), {f.body, f.node, f.mask});
+  file.put("bodies/fixities", fixities);
+}
+
+void take_bodies(const Hdf5Store& file, Model& model) {
+  const Integers ids = file.integers("bodies/kind_template_material");
+  const Reals scales = file.reals("bodies/scale");
+  const auto names = file.lines("bodies/names");
+  for (std::size_t b = 0; b < scales.size(); ++b) {
+    Body body;
+    body.kind = static_cast<BodyKind>(ids.at(3 * b));
+    body.template_id = static_cast<int>(ids.at(3 * b + 1)), body.material_id = static_cast<int>(ids.at(3 * b + 2));
+    body.scale = scales[b], body.name = names.at(b);
+    model.bodies.push_back(body);
+  }
+  const Integers f = file.integers("bodies/fixities");
+  for (std::size_t i = 0; i + 2 < f.size(); i += 3) {
+    model.fixities.push_back({int(f[i]), int(f[i + 1]), static_cast<unsigned>(f[i + 2])});
+  }
+}
+
+void put_planes(Hdf5Store& file, const Model& model) {
+  Reals values;
+  Integers touches;
+  std::vector<std::string> names;
+  for (const Plane& plane : model.planes) {
+    append(values, plane.point), append(values, plane.normal), append(values, plane.velocity);
+    values.push_back(plane.friction);
+    touches.insert(touches.end(), {plane.touches_stones, plane.touches_sleeper});
+    names.push_back(plane.name);
+  }
+  file.put("planes/point_normal_velocity_friction", values, "m, 1, m/s, 1");
+  file.put("planes/touches_stones_sleeper", touches);
+  file.put("planes/names", names);
+}
+
+void take_planes(const Hdf5Store& file, Model& model) {
+  const Reals values = file.reals("planes/point_normal_velocity_friction");
+  const Integers touches = file.integers("planes/touches_stones_sleeper");
+  const auto names = file.lines("planes/names");
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    model.planes.push_back({names[p], triple(values, 10 * p), triple(values, 10 * p + 3), triple(values, 10 * p + 6),
+                            values.at(10 * p + 9), touches.at(2 * p) != 0, touches.at(2 * p + 1) != 0});
+  }
+}
+
+void put_state(Hdf5Store& file, const State& state) {
+  file.put("state/x", state.x, "m");
+  file.put("state/v", state.v, "m/s");
+  file.put("state/a", state.a, "m/s2");
+  const ContactState& contact = state.contact;
+  Integers keys, offsets(contact.triangle_offsets.begin(), contact.triangle_offsets.end()),
+      triangles(contact.triangles.begin(), contact.triangles.end());
+  for (const ContactKey& k : contact.keys) keys.insert(keys.end(), {k.body_a, k.body_b, k.feature_a, k.feature_b});
+  Reals slip;
+  for (const Vector3d& s : contact.slip) append(slip, s);
+  file.put("state/contact/keys", keys);
+  file.put("state/contact/triangle_offsets", offsets);
+  file.put("state/contact/triangles", triangles);
+  file.put("state/contact/slip", slip, "m");
+  file.put("state/contact/travel_and_rebuild_time", Reals{contact.travel, contact.rebuild_time}, "m, s");
+  file.put("state/contact/rebuilds_and_list_id", Integers{contact.rebuilds, static_cast<long long>(contact.list_id)});
+}
+
+void take_state(const Hdf5Store& file, const Model& model, State& state) {
+  state.x = file.reals("state/x"), state.v = file.reals("state/v"), state.a = file.reals("state/a");
+  ContactState& contact = state.contact;
+  const Integers keys = file.integers("state/contact/keys"), offsets = file.integers("state/contact/triangle_offsets"),
+                 triangles = file.integers("state/contact/triangles"),
+                 counts = file.integers("state/contact/rebuilds_and_list_id");
+  for (std::size_t i = 0; i + 3 < keys.size(); i += 4) {
+    contact.keys.push_back({int(keys[i]), int(keys[i + 1]), int(keys[i + 2]), int(keys[i + 3])});
+  }
+  contact.triangle_offsets.assign(offsets.begin(), offsets.end());
+  contact.triangles.assign(triangles.begin(), triangles.end());
+  const Reals slip = file.reals("state/contact/slip"), ages = file.reals("state/contact/travel_and_rebuild_time");
+  for (std::size_t i = 0; i + 2 < slip.size(); i += 3) contact.slip.push_back(triple(slip, i));
+  contact.travel = ages.at(0), contact.rebuild_time = ages.at(1);
+  contact.rebuilds = counts.at(0), contact.list_id = static_cast<std::uint64_t>(counts.at(1));
+  const auto n = static_cast<std::size_t>(model.n_values);
+  if (state.x.size() != n || state.v.size() != n || state.a.size() != n || contact.slip.size() != contact.keys.size() ||
+      contact.triangle_offsets.size() != contact.keys.size() + 1) {
+    throw proto::Error(proto::ExitCode::bad_data, "the arrays of the bed do not fit each other");
+  }
+}
+
+void put_report(Hdf5Store& file, const BedReport& r) {
+  file.put("report/counts", Integers{r.stones, r.elements, r.seed});
+  file.put("report/values",
+           Reals{r.porosity_under_sleeper, r.porosity_layer, r.coordination_number, r.largest_penetration,
+                 r.unbalanced_force_ratio, r.kinetic_energy, r.d50, r.elements_per_stone, r.sleeper_settlement,
+                 r.sleeper_shift, r.sleeper_tilt, r.build_wall_s});
+  file.put("report/value_names",
+           std::vector<std::string>{"porosity_under_sleeper", "porosity_layer", "coordination_number",
+                                    "largest_penetration_m", "unbalanced_force_ratio", "kinetic_energy_j", "d50_m",
+                                    "elements_per_stone", "sleeper_settlement_m", "sleeper_shift_m", "sleeper_tilt_rad",
+                                    "build_wall_s"});
+  file.put("report/notes", r.notes);
+  file.put("report/hash", std::vector<std::string>{r.hash});
+}
+
+BedReport take_report(const Hdf5Store& file) {
+  const Integers counts = file.integers("report/counts");
+  const Reals values = file.reals("report/values");
+  BedReport r;
+  r.stones = counts.at(0), r.elements = counts.at(1), r.seed = counts.at(2);
+  double* const fields[] = {&r.porosity_under_sleeper,
+                            &r.porosity_layer,
+                            &r.coordination_number,
+                            &r.largest_penetration,
+                            &r.unbalanced_force_ratio,
+                            &r.kinetic_energy,
+                            &r.d50,
+                            &r.elements_per_stone,
+                            &r.sleeper_settlement,
+                            &r.sleeper_shift,
+                            &r.sleeper_tilt,
+                            &r.build_wall_s};
+  for (std::size_t i = 0; i < std::size(fields); ++i) *fields[i] = values.at(i);
+  r.notes = file.lines("report/notes");
+  r.hash = file.lines("report/hash").at(0);
+  return r;
+}
+
+Bed take_bed(const Hdf5Store& file, const BedPhysics& physics) {
+  if (file.integers("format").at(0) != bed_file_format) {
+    throw proto::Error(proto::ExitCode::bad_data, "a bed file of another format");
+  }
+  Bed bed;
+  bed.model.materials = {physics.stone, physics.sleeper};
+  bed.model.contact = physics.contact;
+  bed.model.gravity = physics.gravity;
+  bed.model.pad_body = 0;
+  take_templates(file, bed.model);
+  take_bodies(file, bed.model);
+  take_planes(file, bed.model);
+  make_batches(bed.model);
+  take_state(file, bed.model, bed.state);
+  bed.report = take_report(file);
+  return bed;
+}
+
+}  // namespace
+
+void write_bed_file(const std::string& path, const Bed& bed) {
+  const std::string draft = path + "." + std::to_string(::getpid());
+  try {
+    Hdf5Store file = Hdf5Store::create(draft);
+    file.put("format", Integers{bed_file_format});
+    put_templates(file, bed.model);
+    put_bodies(file, bed.model);
+    put_planes(file, bed.model);
+    put_state(file, bed.state);
+    put_report(file, bed.report);
+    file.close();
+  } catch (const proto::Error&) {
+    std::remove(draft.c_str());
+    throw;
+  }
+  std::error_code error;
+  std::filesystem::rename(draft, path, error);
+  if (!error) return;
+  std::remove(draft.c_str());
+  throw proto::Error(proto::ExitCode::io_error, "the bed file cannot be renamed: " + error.message(), path);
+}
+
+Bed read_bed_file(const std::string& path, const BedPhysics& physics) {
+  if (!std::filesystem::exists(path)) throw proto::Error(proto::ExitCode::missing_input, "no bed file", path);
+  const Hdf5Store file = Hdf5Store::open(path);
+  try {
+    return take_bed(file, physics);
+  } catch (const std::out_of_range&) {
+    throw proto::Error(proto::ExitCode::bad_data, "the bed file is not whole", path, "delete it");
+  }
+}
+
+}  // namespace qdem
