@@ -22,3 +22,5 @@ add_dependencies(coupler_initialise_test coupler relaxing_participant)
 house_test(coupler_supervisor_test integration SOURCES integration/coupler_supervisor.cpp
            LIBRARIES coupler::supervise nlohmann_json::nlohmann_json TIMEOUT 60)
 add_dependencies(coupler_supervisor_test coupler oscillator_participant)
+house_test(coupler_record_test unit SOURCES unit/coupler_record.cpp
+           LIBRARIES coupler::record nlohmann_json::nlohmann_json)

@@ -95,7 +95,11 @@ int run_case(const RunOptions& options) {
     return code;
   } catch (const proto::Error& error) {
     log.logger().error("{}", error.what());
-    write_summary();
+    try {
+      write_summary();
+    } catch (const proto::Error& second) {  // a full disk, say; what ended the run stays the run's message
+      log.logger().error("{}", second.what());
+    }
     throw;
   }
 }
