@@ -33,11 +33,20 @@ void print_facts(const std::vector<proto::Fact>& facts) {
 
 }  // namespace
 
+void check_command(const proto::CaseFile& file) {
+  check_case(file);
+  check_bed(file);
+}
+
+Bed bed_of_case(const proto::CaseFile& file, const BedPhysics& physics) {
+  return make_bed(file, physics);
+}
+
 void run_command(const std::string& case_path, const std::string& out) {
   const auto file = proto::CaseFile::load(case_path);
-  check_case(file);
+  check_command(file);
   make_folder(out);
-  const auto figures = run_alone(file, out, [](double time) {
+  const auto figures = run_alone(file, bed_of_case, out, [](double time) {
     if (isatty(fileno(stderr)) != 0) fmt::print(stderr, "\rt = {:.6f} s", time);
   });
   if (isatty(fileno(stderr)) != 0) fmt::print(stderr, "\n");
@@ -53,9 +62,9 @@ void run_command(const std::string& case_path, const std::string& out) {
 
 void bed_command(const std::string& case_path, const std::string& path) {
   const auto file = proto::CaseFile::load(case_path);
-  check_case(file);
+  check_command(file);
   make_folder(std::filesystem::path(path).parent_path());
-  TrackBed bed(file, {});
+  TrackBed bed(file, bed_of_case, {});
   auto attributes = bed.attributes(file);
   for (const auto& fact : bed.facts()) {
     if (fact.number) attributes.emplace_back(fact.key, *fact.number);

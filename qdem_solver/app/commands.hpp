@@ -3,7 +3,16 @@
 
 #include <string>
 
+#include "proto/case/case_file.hpp"
+#include "qdem_solver/bed/bed.hpp"
+
 namespace qdem {
+
+/// `qdem_solver check`: every section that this program reads. Throws proto::Error (config).
+void check_command(const proto::CaseFile& file);
+
+/// The bed of the case, built or from the cache.
+Bed bed_of_case(const proto::CaseFile& file, const BedPhysics& physics);
 
 /// `qdem_solver run`: bed and [qdem.run], then a table of figures. `out` is created when missing.
 void run_command(const std::string& case_path, const std::string& out);

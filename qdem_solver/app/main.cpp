@@ -1,8 +1,10 @@
 // qdem_solver: ballast and sleeper, as a participant or alone.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 
@@ -19,13 +21,14 @@ struct Arguments {
 };
 
 void check(const Arguments& arguments) {
-  qdem::check_case(proto::CaseFile::load(arguments.case_path));
+  qdem::check_command(proto::CaseFile::load(arguments.case_path));
 }
 
 void participate(const Arguments& arguments) {
   auto file = proto::CaseFile::load(arguments.case_path);
   const auto options = proto::read_session_options(arguments.endpoint, file.hash());
-  qdem::QdemParticipant participant(std::move(file), arguments.name, arguments.out);
+  qdem::check_command(file);
+  qdem::QdemParticipant participant(std::move(file), qdem::bed_of_case, arguments.name, arguments.out);
   proto::serve(participant, options);
 }
 
@@ -64,9 +67,19 @@ int run(int argc, char** argv) {
   return 0;
 }
 
+/// Threads that wait shall sleep: spinning ones stand in the way of the other processes of a coupled run, and of each
+/// other on a busy machine (measured: up to 60 times slower). libgomp reads its environment before main() begins, hence
+/// the second start of the program. A user's own setting is left alone.
+void let_threads_sleep(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
+  setenv("OMP_WAIT_POLICY", "passive", 1);
+  execv("/proc/self/exe", argv);  // returns only when it fails; then the threads spin, and all else is the same
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  let_threads_sleep(argv);
   try {
     return run(argc, argv);
   } catch (const proto::Error& error) {

@@ -14,8 +14,8 @@ namespace qdem {
 
 namespace field = proto::field;
 
-QdemParticipant::QdemParticipant(proto::CaseFile file, std::string name, std::string out)
-    : file_(std::move(file)), name_(std::move(name)), out_(std::move(out)) {
+QdemParticipant::QdemParticipant(proto::CaseFile file, BedSource source, std::string name, std::string out)
+    : file_(std::move(file)), source_(std::move(source)), name_(std::move(name)), out_(std::move(out)) {
   check_case(file_);
   output_interval_ = proto::read_coupling(file_).output_interval_s;
 }
@@ -29,7 +29,7 @@ proto::Capabilities QdemParticipant::capabilities() const {
 }
 
 proto::Interface QdemParticipant::describe() {
-  bed_ = std::make_unique<TrackBed>(file_, [this] {
+  bed_ = std::make_unique<TrackBed>(file_, source_, [this] {
     if (progress_ != nullptr) progress_->bump();
   });
   bed_->set_local_damping(bed_->settings().initialise_damping);

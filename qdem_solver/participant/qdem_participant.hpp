@@ -18,7 +18,7 @@ namespace qdem {
 class QdemParticipant : public proto::Participant {
  public:
   /// `out`: folder of qdem.h5 unless Configure names another.
-  QdemParticipant(proto::CaseFile file, std::string name, std::string out);
+  QdemParticipant(proto::CaseFile file, BedSource source, std::string name, std::string out);
   ~QdemParticipant() override;
 
   std::string name() const override { return name_; }
@@ -37,6 +37,7 @@ class QdemParticipant : public proto::Participant {
   bool output_is_due(std::int64_t window) const;
 
   proto::CaseFile file_;
+  BedSource source_;
   std::string name_, out_;
   proto::Progress* progress_ = nullptr;
   std::unique_ptr<TrackBed> bed_;

@@ -7,7 +7,6 @@
 
 #include "proto/error.hpp"
 #include "qdem_solver/output/fields_file.hpp"
-#include "qdem_solver/participant/track_bed.hpp"
 
 namespace qdem {
 namespace {
@@ -94,8 +93,9 @@ void add_end_state(TrackBed& bed, RunFigures& figures) {
 
 }  // namespace
 
-RunFigures run_alone(const proto::CaseFile& file, const std::string& out, const std::function<void(double)>& report) {
-  TrackBed bed(file, {});
+RunFigures run_alone(const proto::CaseFile& file, const BedSource& source, const std::string& out,
+                     const std::function<void(double)>& report) {
+  TrackBed bed(file, source, {});
   const RunAlone& run = bed.settings().run;
   if (run.duration <= 0) file.section("qdem").section("run").fail("duration_s", "there is nothing to run");
   bed.reset_clock();

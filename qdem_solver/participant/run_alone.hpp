@@ -6,6 +6,7 @@
 #include <string>
 
 #include "proto/case/case_file.hpp"
+#include "qdem_solver/participant/track_bed.hpp"
 
 namespace qdem {
 
@@ -26,6 +27,7 @@ struct RunFigures {
 /// share (by stiffness) of the force interpolated in load_time_s/load_force_n; along the other axes the rail foot
 /// follows the sleeper. Writes `out`/qdem.h5 at multiples of output_interval_s.
 /// `report(time)` is called now and then. Throws as TrackBed, and proto::Error (numerics).
-RunFigures run_alone(const proto::CaseFile& file, const std::string& out, const std::function<void(double)>& report);
+RunFigures run_alone(const proto::CaseFile& file, const BedSource& source, const std::string& out,
+                     const std::function<void(double)>& report);
 
 }  // namespace qdem

@@ -10,17 +10,17 @@
 namespace qdem {
 namespace {
 
-Bed bed_of(const proto::CaseFile& file, const QdemCase& settings) {
+Bed bed_of(const proto::CaseFile& file, const QdemCase& settings, const BedSource& source) {
   if (settings.threads > 0) omp_set_num_threads(settings.threads);
-  return make_bed(file, settings.physics);
+  return source(file, settings.physics);
 }
 
 }  // namespace
 
-TrackBed::TrackBed(const proto::CaseFile& file, std::function<void()> on_step)
+TrackBed::TrackBed(const proto::CaseFile& file, const BedSource& source, std::function<void()> on_step)
     : settings_(read_qdem_case(file)),
       seats_(proto::read_rail_seats(file)),
-      bed_(bed_of(file, settings_)),
+      bed_(bed_of(file, settings_, source)),
       rest_(bed_.state) {
   bed_.model.pads = make_pad_cells(bed_.model, bed_.state, bed_.model.pad_body, seats_);
   engine_ = std::make_unique<Engine>(bed_.model, EngineOptions{settings_.threads, std::move(on_step)});
@@ -82,7 +82,6 @@ proto::Attributes TrackBed::attributes(const proto::CaseFile& file) const {
 void check_case(const proto::CaseFile& file) {
   read_qdem_case(file);
   proto::read_rail_seats(file);
-  check_bed(file);
 }
 
 }  // namespace qdem

@@ -1,6 +1,7 @@
 // The bed under its rail pads, ready to be integrated: what the participant and the run alone share.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,13 +17,16 @@
 
 namespace qdem {
 
+/// Where the bed comes from: make_bed() in the program, something small in tests.
+using BedSource = std::function<Bed(const proto::CaseFile&, const BedPhysics&)>;
+
 /// Bed, pads, engine and step bound of one case. Not movable: the engine refers to the model inside.
 class TrackBed {
  public:
-  /// Reads `[qdem]`, `[[rail_seat]]` and the bed's sections; builds the bed or loads it from its cache; lays the pads.
-  /// `on_step` is called after every step. Throws what make_bed(), read_qdem_case(), make_pad_cells() throw, and
+  /// Reads `[qdem]` and `[[rail_seat]]`, takes the bed from `source`, lays the pads.
+  /// `on_step` is called after every step. Throws what the source, read_qdem_case(), make_pad_cells() throw, and
   /// proto::Error (config) for a largest_step_s above the stability bound.
-  TrackBed(const proto::CaseFile& file, std::function<void()> on_step);
+  TrackBed(const proto::CaseFile& file, const BedSource& source, std::function<void()> on_step);
   TrackBed(const TrackBed&) = delete;
   TrackBed& operator=(const TrackBed&) = delete;
 
@@ -59,7 +63,7 @@ class TrackBed {
   double largest_step_ = 0.0;
 };
 
-/// Checks everything that can be checked of the QDEM sections without building the bed. Throws as TrackBed.
+/// Checks `[qdem]` and `[[rail_seat]]`. Throws proto::Error (config).
 void check_case(const proto::CaseFile& file);
 
 }  // namespace qdem
