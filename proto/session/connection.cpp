@@ -38,7 +38,9 @@ Connection::Connection(const SessionOptions& options, const Progress& progress)
       wake_fd_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   if (wake_fd_ < 0) throw Error(ExitCode::os_error, "no event descriptor is left");
   set_options(socket_, settings_of(options_));
-  socket_.set(zmq::sockopt::immediate, true);
+  // With "immediate" libzmq drops what was received and not yet read when the connection ends: the coupler's last
+  // words. What is queued before the connection is the Hello only.
+  socket_.set(zmq::sockopt::immediate, false);
   // Before the coupler is there we try again; once connected, a loss ends the session before a reconnection can.
   socket_.set(zmq::sockopt::reconnect_ivl, 200);
   try {
@@ -245,6 +247,7 @@ void Connection::leave_after_failure() {
     _exit(static_cast<int>(ExitCode::unavailable));
   }
   lock.unlock();
+  if (!session_) socket_.set(zmq::sockopt::linger, 0);  // nobody there to say anything to
   const auto deadline = Clock::now() + flush_time;
   do {
     deliver_queue();
