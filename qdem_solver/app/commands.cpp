@@ -9,6 +9,7 @@
 
 #include "proto/case/case_file.hpp"
 #include "proto/error.hpp"
+#include "qdem_solver/output/bed_file.hpp"
 #include "qdem_solver/output/fields_file.hpp"
 #include "qdem_solver/participant/run_alone.hpp"
 #include "qdem_solver/participant/track_bed.hpp"
@@ -64,15 +65,20 @@ void bed_command(const std::string& case_path, const std::string& path) {
   const auto file = proto::CaseFile::load(case_path);
   check_command(file);
   make_folder(std::filesystem::path(path).parent_path());
-  TrackBed bed(file, bed_of_case, {});
-  auto attributes = bed.attributes(file);
-  for (const auto& fact : bed.facts()) {
-    if (fact.number) attributes.emplace_back(fact.key, *fact.number);
-  }
-  FieldsFile fields(path, bed.model(), bed.state(), attributes);
+  const std::filesystem::path target(path);
+  const auto view_path = target.parent_path() / (target.stem().string() + "_fields.h5");
+  // The figures and the fields are of the bed under its pads; the file holds the bed as it was built.
+  TrackBed bed(file,
+               [&](const proto::CaseFile& the_file, const BedPhysics& physics) {
+                 Bed built = bed_of_case(the_file, physics);
+                 write_bed_file(path, built);
+                 return built;
+               },
+               {});
+  FieldsFile fields(view_path.string(), bed.model(), bed.state(), bed.attributes(file));
   fields.write(0.0, bed.state(), bed.engine());
   fields.close();
-  fmt::print("{}\n", path);
+  fmt::print("bed    {}\nfields {}\n", path, view_path.string());
   print_facts(bed.facts());
 }
 

@@ -17,7 +17,8 @@ Bed bed_of_case(const proto::CaseFile& file, const BedPhysics& physics);
 /// `qdem_solver run`: bed and [qdem.run], then a table of figures. `out` is created when missing.
 void run_command(const std::string& case_path, const std::string& out);
 
-/// `qdem_solver bed`: builds the bed (or takes it from the cache), writes it to `path`, prints its figures.
+/// `qdem_solver bed`: builds the bed (or takes it from the cache), writes it to `path`, and its fields for ParaView to
+/// NAME_fields.h5 beside it; prints its figures.
 void bed_command(const std::string& case_path, const std::string& path);
 
 }  // namespace qdem
