@@ -31,7 +31,7 @@ TEST(Newmark, second_order_in_time) {
   auto settings = tests::small_track();
   settings.n_bays = 6, settings.element_length = 0.3;
   const auto system = fem::build_rail_system(settings, {tests::rail_seat(0.0)}, fem::SeatOwner::own_supports);
-  const Eigen::VectorXd reference = after_pulse(system, 2.5e-6);
+  const Eigen::VectorXd reference = after_pulse(system, 5e-6);
   const std::vector<double> steps{1e-4, 5e-5, 2.5e-5};
   std::vector<double> errors;
   for (const double step : steps) errors.push_back((after_pulse(system, step) - reference).norm());

@@ -1,5 +1,6 @@
 // The wheel on the rail: no ripple from the elements, no compliance counted twice, contact that opens.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "fem_solver/time/wheel_track.hpp"
@@ -50,11 +51,11 @@ TEST(Ripple, constant_load_on_a_continuous_support) {
   std::printf("standing: deflection %.4f mm, ripple %.3f %%\n", highest * 1e3, (highest / lowest - 1) * 100);
   EXPECT_TRUE(near_abs(highest / lowest, 1.0, 5e-3));
 
-  // Rolling; the first 0.6 m let the start of the motion die out, then four elements are looked at.
+  // Rolling; the first 0.6 m let the start of the motion die out, then two elements are looked at.
   const fem::Newmark newmark(system, step, 0.0);
   auto state = newmark.state_at_rest(statics.solve({}, {}, band.at(begin), load).displacement);
   lowest = 1.0, highest = 0.0;
-  for (int n = 0; n < 600; ++n) {
+  for (int n = 0; n < 450; ++n) {
     Eigen::VectorXd force = system.weight;
     band.add_load(band.at(begin + speed * step * (n + 0.5)), -load, force);
     const Eigen::VectorXd right_side = newmark.right_side(state, force);
@@ -66,21 +67,25 @@ TEST(Ripple, constant_load_on_a_continuous_support) {
   EXPECT_TRUE(near_abs(highest / lowest, 1.0, 5e-3));
 }
 
-class Approach : public ::testing::TestWithParam<double> {};
+struct Standing {
+  double x, element_length;  // [m]
+};
+class Approach : public ::testing::TestWithParam<Standing> {};
 
-// The wheel's descent is the Hertz approach of physics.md 3.1 plus the deflection of an independent beam.
+// The wheel's descent is the Hertz approach of physics.md 3.1 plus the deflection of an independent beam. On coarse
+// elements the long patch would hide 3 % of the descent if the indentation were not accounted for.
 TEST_P(Approach, hertz_plus_beam_within_2_percent) {
   fem::FemSettings settings = tests::small_track();
-  settings.element_length = 0.1;
+  settings.element_length = GetParam().element_length;
   const auto system = fem::build_rail_system(settings, {tests::rail_seat(0.0)}, fem::SeatOwner::own_supports);
   fem::WheelSettings wheel;
-  wheel.start = GetParam();
+  wheel.start = GetParam().x;
   wheel.static_load = 80e3;
   const fem::WheelTrack track(system, settings, wheel, 5e-5, {});
 
   const auto& x = system.mesh->planes();
   const double shear_modulus = settings.material.young / (2 * (1 + settings.material.poisson));
-  tests::TimoshenkoBeam beam(x.front(), x.back(), 4 * (static_cast<int>(x.size()) - 1),
+  tests::TimoshenkoBeam beam(x.front(), x.back(), static_cast<int>(std::lround((x.back() - x.front()) / 0.025)),
                              settings.material.young * 3.037e-5, 0.393 * shear_modulus * 76.70e-4);
   for (const auto& seat : system.support_seats)
     beam.add_pad({seat.origin[0] - 0.05, seat.origin[0], seat.origin[0] + 0.05}, 225e6 / 3, 150e6);
@@ -91,7 +96,8 @@ TEST_P(Approach, hertz_plus_beam_within_2_percent) {
       (-track.state().wheel_displacement / (90.8e-6 + deflection) - 1) * 100, track.statics().indentation());
   EXPECT_TRUE(near_rel(-track.state().wheel_displacement, 90.8e-6 + deflection, 0.02));
 }
-INSTANTIATE_TEST_SUITE_P(seat_and_mid_bay, Approach, ::testing::Values(0.0, 0.3));
+INSTANTIATE_TEST_SUITE_P(seat_and_mid_bay, Approach,
+                         ::testing::Values(Standing{0.0, 0.1}, Standing{0.3, 0.1}, Standing{0.0, 0.3}));
 
 TEST(Contact, opens_over_a_deep_dip_and_closes_again) {
   const auto settings = tests::small_track();
@@ -103,7 +109,7 @@ TEST(Contact, opens_over_a_deep_dip_and_closes_again) {
   const double step = 5e-5;
   fem::WheelTrack track(system, settings, wheel, step, {});
   double lowest = 1e9, impulse = 0.0, after_opening = 0.0;
-  for (int n = 0; n < 700; ++n) {
+  for (int n = 0; n < 520; ++n) {
     track.march({});
     const double force = track.contact_force();
     ASSERT_GE(force, 0.0);
@@ -124,7 +130,7 @@ TEST(Start, a_standing_wheel_stays_at_rest) {
   wheel.start = -0.47, wheel.speed = 0.0;
   fem::WheelTrack track(system, settings, wheel, 5e-5, {});
   const double begin = track.state().wheel_displacement;
-  for (int n = 0; n < 400; ++n) {
+  for (int n = 0; n < 200; ++n) {
     track.march({});
     ASSERT_TRUE(near_rel(track.contact_force(), wheel.static_load, 1e-6));
   }
