@@ -19,9 +19,10 @@ using Eigen::Vector3d;
 
 constexpr int sleeper = 0;  // body number
 constexpr double step_safety = 0.8;
-constexpr int contacts_of_a_node = 4;  // that touch at once, for the step before any does
-constexpr double pouring_skin = 3.0;   // candidate lists live longer while stones fall [roundings]
-constexpr double tamping_speed = 0.4;  // [m/s]
+constexpr int contacts_of_a_node = 4;     // that touch at once, for the step before any does
+constexpr double pouring_skin = 3.0;      // candidate lists live longer while stones fall [roundings]
+constexpr double tamping_pressure = 3e3;  // [Pa]
+constexpr double tamping_speed = 0.4;     // [m/s]
 
 /// Volume of a template rounded by r: Steiner's formula, V + A r + M r^2 + 4 pi/3 r^3 with M half the sum of edge
 /// length times exterior angle.
@@ -188,7 +189,7 @@ double Builder::mass_of_stones() const {
   return mass;
 }
 
-double Builder::run(double least_time, double most_time, const Rest& rest) {
+void Builder::run(double least_time, double most_time, const Rest& rest, const std::function<bool()>& enough) {
   const auto clock = std::chrono::steady_clock::now();
   const auto first_step = state_.step;
   Engine engine(model_);
@@ -209,6 +210,7 @@ double Builder::run(double least_time, double most_time, const Rest& rest) {
   while (state_.time - start < most_time) {
     engine.advance(state_, dt, block);
     if (state_.time - start < least_time) continue;
+    if (enough && enough()) break;
     const double kinetic = engine.energies(state_).kinetic;
     const bool slow = rest.speed > 0 && std::sqrt(2 * kinetic / mass) < rest.speed;
     const bool still = rest.kinetic > 0 && kinetic < rest.kinetic && engine.unbalanced_ratio(state_) < rest.unbalanced;
@@ -226,25 +228,42 @@ double Builder::run(double least_time, double most_time, const Rest& rest) {
       state_.time - start, state_.step - first_step, 1e6 * dt, seconds_since(clock), report_.kinetic_energy,
       report_.unbalanced_force_ratio, 1e3 * report_.largest_penetration, contacts.live, contacts.candidates,
       contacts.coordination_number, top_of_stones());
-  return dt;
 }
 
-void Builder::tamp(double level) {
+double Builder::tamp(double level) {
   const double r = physics_.contact.rounding;
-  const double top = std::max(top_of_stones(), level) + r;
-  const double duration = (top - level) / tamping_speed;
-  Plane plane{
-      "tamp", {0, 0, top + tamping_speed * state_.time}, -Vector3d::UnitZ(), Vector3d(0, 0, -tamping_speed), 0.0, true,
-      false};
-  model_.planes.push_back(plane);
+  const double start = std::max(top_of_stones(), level) + r;
+  const double area = settings_.wall() * settings_.spacing;
+  model_.planes.push_back({"tamp",
+                           {0, 0, start + tamping_speed * state_.time},
+                           -Vector3d::UnitZ(),
+                           Vector3d(0, 0, -tamping_speed),
+                           0.0,
+                           true,
+                           false});
   drop_contacts();
-  run(duration, duration, {});
+  const auto place = [this] { return model_.planes.back().point[2] + state_.time * model_.planes.back().velocity[2]; };
+  // Pressed until the level is reached or the pressure is: what remains above was too much for this porosity.
+  run(0, (start - level) / tamping_speed, {}, [&] { return pressure_on(place(), area) > tamping_pressure; });
+  const double reached = std::max(place(), level);
   model_.planes.back().velocity.setZero();
-  model_.planes.back().point[2] = level;
+  model_.planes.back().point[2] = reached;
   drop_contacts();
-  run(0.02, 0.1, {0.01});
+  run(0.02, 0.1, {0.02}, {});
   model_.planes.pop_back();
   drop_contacts();
+  return reached;
+}
+
+double Builder::pressure_on(double level, double area) const {
+  double force = 0.0;
+  for (int b = 1; b < static_cast<int>(model_.bodies.size()); ++b) {
+    for (const int node : model_.shape(b).surface_nodes) {
+      const double overlap = state_.position(model_, b, node)[2] + physics_.contact.rounding - level;
+      force += model_.contact.normal_stiffness * std::max(0.0, overlap);
+    }
+  }
+  return force / area;
 }
 
 void Builder::pour_layer() {
@@ -261,15 +280,15 @@ void Builder::pour_layer() {
   }
   add_stones(layer_, {{-half + gap, half - gap, gap, s.wall() - gap}}, s.ground_level() + gap);
   const double fall = (top_of_stones() - s.ground_level()) / s.pour_speed;
-  run(0.5 * fall, 2 * fall, {0.04});
-  tamp(-s.sleeper_height);
+  run(0.5 * fall, 2 * fall, {0.04}, {});
+  sleeper_bottom_ = tamp(-s.sleeper_height);
 }
 
 void Builder::pour_crib() {
   const Settings& s = settings_;
   const double half = s.spacing / 2, gap = 2 * physics_.contact.rounding;
   for (int i = 0; i < model_.shape(sleeper).n_nodes(); ++i) {
-    const Vector3d lifted(0, 0, physics_.contact.rounding);
+    const Vector3d lifted(0, 0, sleeper_bottom_ + s.sleeper_height + physics_.contact.rounding);
     State::scatter(model_, state_.x, sleeper, i, model_.shape(sleeper).nodes[i] + lifted);
     State::scatter(model_, state_.v, sleeper, i, Vector3d::Zero());
   }
@@ -280,8 +299,8 @@ void Builder::pour_crib() {
   add_stones(crib_, floor, top_of_stones() + gap);
   drop_contacts();
   const double fall = (top_of_stones() + s.sleeper_height) / s.pour_speed;
-  run(0.5 * fall, 2 * fall, {0.04});
-  tamp(s.crib_level());
+  run(0.5 * fall, 2 * fall, {0.04}, {});
+  tamp(sleeper_bottom_ + s.crib_height);
 }
 
 void Builder::bed_in() {
@@ -292,9 +311,9 @@ void Builder::bed_in() {
   const double start = seat_height();
   const Softness soft{s.pour_young, s.pour_stiffness, physics_.contact.friction, 0.3, 0.0, 4.0};
   soften(soft, s.preload);
-  run(0.15, 0.6, {0.01});
+  run(0.15, 0.6, {0.01}, {});
   soften(soft, 0);
-  run(0.03, 0.1, {0.01});
+  run(0.03, 0.1, {0.01}, {});
   report_.sleeper_settlement = start - seat_height();
 }
 
@@ -310,7 +329,7 @@ void Builder::harden() {
     Engine engine(model_);
     engine.prepare(state_);
     const double dt = step_safety * stability(model_, state_, engine.contacts()).largest_step;
-    run(s.ramp_steps * dt, s.ramp_steps * dt, {});
+    run(s.ramp_steps * dt, s.ramp_steps * dt, {}, {});
   }
 }
 
@@ -323,7 +342,7 @@ void Builder::come_to_rest() {
   const double dt = step_safety * stability(model_, state_, engine.contacts()).largest_step;
   Rest rest;
   rest.kinetic = s.kinetic_limit / 2, rest.unbalanced = s.unbalanced_limit / 2;
-  run(1000 * dt, s.rest_steps * dt, rest);
+  run(1000 * dt, s.rest_steps * dt, rest, {});
 }
 
 double Builder::seat_height() const {

@@ -1,6 +1,7 @@
 // Pours, tamps and relaxes a bed with the QDEM engine.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "qdem_solver/bed/bed.hpp"
@@ -46,8 +47,11 @@ class Builder {
   void hold_sleeper(unsigned mask);
   void drop_contacts();
   void drop_spare_lanes();
-  double run(double least_time, double most_time, const Rest& rest);
-  void tamp(double level);
+  /// Steps for `most_time` [s]; after `least_time` ends early at rest, or when `enough` says so (every 200 steps).
+  void run(double least_time, double most_time, const Rest& rest, const std::function<bool()>& enough);
+  /// Presses a plane down on the stones to `level` [m] or to the tamping pressure; returns where it stopped [m].
+  double tamp(double level);
+  double pressure_on(double level, double area) const;
   double top_of_stones() const;
   double mass_of_stones() const;
   double seat_height() const;
@@ -57,6 +61,7 @@ class Builder {
   const BedPhysics& physics_;
   Random random_;
   std::vector<Stone> layer_, crib_;
+  double sleeper_bottom_ = 0.0;  ///< where the tamped layer ends, before the last shift [m]
   Model model_;
   State state_;
   BedReport report_;

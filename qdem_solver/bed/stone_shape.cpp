@@ -98,12 +98,15 @@ double lightest_corner(const Template& shape) {
 Candidate best_mesh(const std::string& name, const Polyhedron& stone, const StoneShapes& wanted) {
   Candidate best;
   int least_seen = 1 << 30, most_seen = 0;
+  int n_good = 0;
   for (const double size : {0.62, 0.56, 0.51, 0.47, 0.43, 0.40, 0.37}) {
+    if (n_good == 3) break;  // finer meshes have smaller steps
     try {
       Template shape = mesh_polyhedron(name, stone, size);
       least_seen = std::min(least_seen, shape.n_tets()), most_seen = std::max(most_seen, shape.n_tets());
       if (shape.n_tets() < wanted.least_tets || shape.n_tets() > wanted.most_tets) continue;
       if (lightest_corner(shape) < 0.0025) continue;  // its contact would rule the step
+      ++n_good;
       const double step = step_of_unit_rock(shape);
       if (step > best.step) best.step = step, best.shape = std::move(shape);
     } catch (const proto::Error& error) {

@@ -23,17 +23,19 @@ struct EdgeNow {
 /// Outward direction of an edge: bisector of its two face normals, and the angle between it and either of them.
 struct EdgeWedge {
   Eigen::Vector3d outward;
-  double half_angle;  ///< [rad]
+  double cos_half;  ///< cosine of half the angle between the face normals
   EdgeWedge(const BodySkin& skin, const double* positions, int edge) {
     const auto& faces = skin.shape->edges[edge].triangles;
     const Eigen::Vector3d n0 = TriangleNow(skin, positions, faces[0]).area_vector.normalized();
     const Eigen::Vector3d n1 = TriangleNow(skin, positions, faces[1]).area_vector.normalized();
     outward = (n0 + n1).normalized();
-    half_angle = std::acos(std::clamp(outward.dot(n0), -1.0, 1.0));
+    cos_half = outward.dot(n0);
   }
   /// 1 for a normal between the two face normals and up to 15 degrees beyond, 0 from 30 degrees beyond.
   double facing(const Eigen::Vector3d& normal) const {
-    const double beyond = std::acos(std::clamp(outward.dot(normal), -1.0, 1.0)) - half_angle;
+    const double cosine = outward.dot(normal);
+    if (cosine >= cos_half) return 1.0;
+    const double beyond = std::acos(std::max(cosine, -1.0)) - std::acos(std::min(cos_half, 1.0));
     const double t = std::clamp((beyond - M_PI / 12) / (M_PI / 12), 0.0, 1.0);
     return 1 - t * t * (3 - 2 * t);
   }

@@ -1,0 +1,237 @@
+// Parts of the bed: gradation, stone templates, sleeper mesh, loose stack, porosity, settings, bed file.
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "proto/error.hpp"
+#include "qdem_solver/bed/loose_stack.hpp"
+#include "qdem_solver/bed/porosity.hpp"
+#include "qdem_solver/bed/settings.hpp"
+#include "qdem_solver/bed/sleeper_shape.hpp"
+#include "qdem_solver/bed/stone_shape.hpp"
+#include "qdem_solver/contact/contact_stage.hpp"
+#include "qdem_solver/output/bed_file.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace {
+
+using namespace tests;
+using namespace qdem::bed;
+using Eigen::Vector3d;
+
+const Gradation sieves{{0.03, 0.04, 0.05, 0.063}, {0.0, 0.3, 0.8, 1.0}};
+
+std::vector<Stone> draw(std::uint64_t seed, double volume) {
+  Random random(seed, 1);
+  return draw_stones(
+      sieves, 5, [](int t, double size) { return (0.3 + 0.05 * t) * size * size * size; }, volume, random);
+}
+
+TEST(Gradation, DrawnStonesFollowTheSieveCurve) {
+  const auto stones = draw(3, 0.05);
+  ASSERT_GT(stones.size(), 500u);
+  double total = 0;
+  for (const Stone& s : stones) total += (0.3 + 0.05 * s.template_id) * std::pow(s.size, 3);
+  for (const double sieve : {0.035, 0.04, 0.045, 0.05, 0.06}) {
+    double passing = 0;
+    for (const Stone& s : stones) passing += s.size <= sieve ? (0.3 + 0.05 * s.template_id) * std::pow(s.size, 3) : 0;
+    EXPECT_TRUE(near_abs(passing / total, sieves.passing_at(sieve), 0.02)) << "sieve " << sieve;
+  }
+  EXPECT_TRUE(near_rel(sieves.size_at(0.5), 0.044, 1e-12));
+}
+
+TEST(Gradation, OneSeedOneSetOfStones) {
+  const auto a = draw(3, 0.01), b = draw(3, 0.01), c = draw(4, 0.01);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].size, b[i].size);
+    EXPECT_EQ(a[i].template_id, b[i].template_id);
+  }
+  EXPECT_NE(a[0].size, c[0].size);
+}
+
+StoneShapes few(std::uint64_t seed) {
+  StoneShapes shapes;
+  shapes.n_templates = 4, shapes.seed = seed;
+  return shapes;
+}
+
+/// Every edge of a closed surface is passed once in each direction.
+bool closed(const qdem::Template& shape) {
+  std::map<std::pair<int, int>, int> passes;
+  for (const auto& t : shape.triangles) {
+    for (int k = 0; k < 3; ++k) ++passes[{t.nodes[k], t.nodes[(k + 1) % 3]}];
+  }
+  for (const auto& [edge, n] : passes) {
+    if (n != 1 || passes.count({edge.second, edge.first}) != 1) return false;
+  }
+  return true;
+}
+
+TEST(StoneTemplates, AreClosedAndInRange) {
+  const auto shapes = few(1);
+  const auto stones = make_stone_templates(shapes);
+  ASSERT_EQ(stones.templates.size(), 4u);
+  for (const auto& stone : stones.templates) {
+    EXPECT_GE(stone.n_tets(), 50);
+    EXPECT_LE(stone.n_tets(), 100);
+    EXPECT_TRUE(closed(stone));
+    for (const double volume : stone.volumes) EXPECT_GT(volume, 0);
+    Vector3d low = stone.nodes[0], high = low;
+    for (const Vector3d& x : stone.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    const Vector3d extent = high - low;
+    EXPECT_TRUE(near_rel(extent[1], 1.0, 1e-9));
+    EXPECT_TRUE(extent[0] >= shapes.elongation.lowest - 1e-9 && extent[0] <= shapes.elongation.highest + 1e-9);
+    EXPECT_TRUE(extent[2] >= shapes.flatness.lowest - 1e-9 && extent[2] <= shapes.flatness.highest + 1e-9);
+    double flux = 0;  // volume by the divergence theorem over the skin
+    for (const auto& t : stone.triangles) {
+      flux += stone.nodes[t.nodes[0]].dot(stone.nodes[t.nodes[1]].cross(stone.nodes[t.nodes[2]])) / 6;
+    }
+    EXPECT_TRUE(near_rel(stone.volume(), flux, 1e-12));
+  }
+}
+
+TEST(StoneTemplates, ReproducibleFromTheSeed) {
+  const auto a = make_stone_templates(few(1)), b = make_stone_templates(few(1)), c = make_stone_templates(few(2));
+  for (std::size_t t = 0; t < a.templates.size(); ++t) {
+    ASSERT_EQ(a.templates[t].n_nodes(), b.templates[t].n_nodes());
+    EXPECT_EQ(a.templates[t].tets, b.templates[t].tets);
+    for (int i = 0; i < a.templates[t].n_nodes(); ++i) EXPECT_EQ(a.templates[t].nodes[i], b.templates[t].nodes[i]);
+  }
+  EXPECT_NE(a.templates[0].nodes[0], c.templates[0].nodes[0]);
+}
+
+TEST(Sleeper, BoxFillsItsVolume) {
+  const auto box = box_shape("box", {-0.13, 0, -0.2}, {0.13, 1.2, 0}, 0.05);
+  EXPECT_EQ(box.n_tets(), 5 * 24 * 4 * 6);
+  EXPECT_TRUE(near_rel(box.volume(), 0.26 * 1.2 * 0.2, 1e-12));
+  EXPECT_TRUE(closed(box));
+}
+
+TEST(Porosity, OfOneCubeIsItsClosedForm) {
+  qdem::Model model;
+  model.materials.push_back({"rock", 6e10, 0.25, 2700, 0, 0});
+  model.templates.push_back(box_shape("cube", Vector3d::Constant(-0.05), Vector3d::Constant(0.05), 0.05));
+  model.bodies.emplace_back();
+  make_batches(model);
+  const auto state = make_state(model, {qdem::Placement{}});
+  const Vector3d half = Vector3d::Constant(0.1);
+  EXPECT_TRUE(near_abs(porosity(model, state, -half, half, 0.005, 0.0), 1 - 0.125, 1e-12));
+  EXPECT_TRUE(near_abs(porosity(model, state, -half, half, 0.001, 0.002), 1 - std::pow(0.52, 3), 2e-3));
+}
+
+TEST(LooseStack, BoxesStayApartAndOnTheFloor) {
+  const std::vector<qdem::Template> templates = {box_shape("long", {-0.7, -0.5, -0.3}, {0.7, 0.5, 0.3}, 0.5)};
+  std::vector<Stone> stones(60, Stone{0, 0.05});
+  Random random(1, 2);
+  const std::vector<Rectangle> floor = {{0, 0.2, 0, 0.4}, {0.2, 0.5, 0, 0.4}};
+  const auto places = stack_loosely(templates, stones, std::vector<double>(60, 0.05), floor, 0.1, 1e-3, random);
+  std::vector<std::pair<Vector3d, Vector3d>> boxes;
+  for (const auto& place : places) {
+    Vector3d low = Vector3d::Constant(1e9), high = -low;
+    for (const Vector3d& node : templates[0].nodes) {
+      const Vector3d x = place.rotation * (0.05 * node) + place.translation;
+      low = low.cwiseMin(x), high = high.cwiseMax(x);
+    }
+    EXPECT_GE(low[2], 0.1);
+    EXPECT_TRUE(low[0] >= 0 && high[0] <= 0.5 && low[1] >= 0 && high[1] <= 0.4);
+    for (const auto& [l, h] : boxes) {
+      EXPECT_TRUE((low.array() > h.array()).any() || (high.array() < l.array()).any());
+    }
+    boxes.emplace_back(low, high);
+  }
+}
+
+/// Writes a case of the given [bed] lines and returns its path.
+std::string case_with(const std::string& bed) {
+  const auto folder = std::filesystem::temp_directory_path() / ("bed_test_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const auto path = folder / "case.toml";
+  std::ofstream(path) << "[track]\ngauge_m = 1.435\nsleeper_spacing_m = 0.6\n[[rail_seat]]\nname = \"seat\"\n"
+                         "origin_m = [0.0, 0.7535, 0.0]\nlongitudinal_axis = [1, 0, 0]\nlateral_axis = [0, 1, 0]\n"
+                         "half_lengths_m = [0.075, 0.07]\ncells = [1, 1]\nstiffness_n_per_m = [60e6, 60e6, 225e6]\n"
+                         "damping_ns_per_m = [15e3, 15e3, 30e3]\nclip_preload_n = 20e3\ntension_cutoff = true\n[bed]\n"
+                      << bed;
+  return path.string();
+}
+
+std::string refusal(const std::string& bed) {
+  try {
+    read_settings(proto::CaseFile::load(case_with(bed)));
+  } catch (const proto::Error& error) {
+    EXPECT_EQ(error.code(), proto::ExitCode::config);
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Settings, RefuseWhatCannotBe) {
+  EXPECT_EQ(refusal("seed = 7\n"), "");
+  EXPECT_NE(refusal("dept_m = 0.3\n").find("depth_m"), std::string::npos);
+  EXPECT_NE(refusal("sleeper_length_m = 1.5\n").find("seat"), std::string::npos);
+  EXPECT_NE(refusal("sieve_passing_percent = [0, 50, 100]\n").find("sieve"), std::string::npos);
+  EXPECT_NE(refusal("sieve_sizes_m = [0.05, 0.04, 0.06, 0.07, 0.08]\n").find("ascend"), std::string::npos);
+  EXPECT_NE(refusal("depth_m = -0.2\n"), "");
+}
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+qdem::Bed two_cubes(const qdem::BedPhysics& physics) {
+  qdem::Bed bed;
+  bed.model.materials = {physics.stone, physics.sleeper};
+  bed.model.contact = physics.contact;
+  bed.model.templates.push_back(box_shape("cube", Vector3d::Constant(-0.05), Vector3d::Constant(0.05), 0.05));
+  bed.model.bodies.resize(2);
+  bed.model.bodies[0].kind = qdem::BodyKind::sleeper, bed.model.bodies[0].name = "sleeper";
+  bed.model.bodies[0].material_id = 1;
+  bed.model.bodies[1].scale = 0.9, bed.model.bodies[1].name = "stone_1";
+  bed.model.planes.push_back({"ground", {0, 0, -0.05}, Vector3d::UnitZ(), Vector3d::Zero(), 0.5, true, true});
+  bed.model.fixities.push_back({0, 3, 2u});
+  make_batches(bed.model);
+  bed.state = make_state(bed.model, {{}, {Eigen::Matrix3d::Identity(), {0.01, 0, 0.096}}});
+  for (std::size_t i = 0; i < bed.state.v.size(); ++i) bed.state.v[i] = 1e-3 * std::sin(double(i));
+  qdem::ContactStage stage(bed.model);
+  stage.update_candidates(bed.state, 0.0);
+  stage.compute(bed.state, 1e-6);
+  bed.report.hash = "0123456789abcdef", bed.report.stones = 1, bed.report.porosity_layer = 0.41;
+  bed.report.notes = {"a note", "another"};
+  return bed;
+}
+
+TEST(BedFile, RoundTripIsBitwise) {
+  qdem::BedPhysics physics;
+  physics.stone = {"stone", 6e10, 0.25, 2700, 0, 0}, physics.sleeper = {"sleeper", 4e10, 0.2, 2400, 0, 0};
+  physics.contact.normal_stiffness = 1e6, physics.contact.friction = 0.5, physics.contact.rounding = 1e-3;
+  const qdem::Bed bed = two_cubes(physics);
+  ASSERT_GT(bed.state.contact.keys.size(), 4u);
+  const auto folder = std::filesystem::temp_directory_path() / ("bed_file_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string path = (folder / "bed.h5").string();
+  write_bed_file(path, bed);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);  // no draft is left
+  const qdem::Bed read = qdem::read_bed_file(path, physics);
+  EXPECT_TRUE(same_bytes(bed.state.x, read.state.x));
+  EXPECT_TRUE(same_bytes(bed.state.v, read.state.v));
+  EXPECT_TRUE(same_bytes(bed.state.a, read.state.a));
+  EXPECT_TRUE(bed.state.contact.keys == read.state.contact.keys);
+  EXPECT_TRUE(same_bytes(bed.state.contact.slip, read.state.contact.slip));
+  EXPECT_EQ(bed.state.contact.triangles, read.state.contact.triangles);
+  EXPECT_EQ(bed.state.contact.triangle_offsets, read.state.contact.triangle_offsets);
+  EXPECT_EQ(bed.state.contact.list_id, read.state.contact.list_id);
+  EXPECT_EQ(bed.state.contact.travel, read.state.contact.travel);
+  EXPECT_EQ(bed.model.n_values, read.model.n_values);
+  EXPECT_EQ(bed.model.planes[0].point, read.model.planes[0].point);
+  EXPECT_EQ(bed.model.templates[0].triangles.size(), read.model.templates[0].triangles.size());
+  EXPECT_EQ(bed.report.porosity_layer, read.report.porosity_layer);
+  EXPECT_EQ(bed.report.notes, read.report.notes);
+
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  EXPECT_THROW(qdem::read_bed_file(path, physics), proto::Error);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
