@@ -200,14 +200,6 @@ void OutputFile::reserve(std::uint64_t bytes) {
   }  // else a file system without reservation: the write itself will tell
 }
 
-void OutputFile::restore_length() const noexcept {
-  haddr_t end = 0;
-  if (H5Fget_eoa(file_.id(), &end) < 0) return;
-  struct stat status {};
-  if (::stat(path_.c_str(), &status) != 0 || status.st_size >= static_cast<off_t>(end)) return;
-  static_cast<void>(::truncate(path_.c_str(), static_cast<off_t>(end)));  // a hole needs no blocks
-}
-
 int OutputFile::descriptor() const {
   int* number = nullptr;
   check(H5Fget_vfd_handle(file_.id(), H5P_DEFAULT, reinterpret_cast<void**>(&number)), "write");

@@ -49,7 +49,6 @@ class OutputFile {
   template <class Action>
   void write(std::uint64_t bytes, Action&& action) {
     refuse_if_broken();
-    const GiveUp give_up{*this};
     broken_ = true;
     reserve(bytes);
     action();
@@ -77,15 +76,6 @@ class OutputFile {
   void refuse_if_broken() const;
   /// Throws (io_error) when the disk has no room for `bytes` more.
   void reserve(std::uint64_t bytes);
-  /// After a failure: makes the file as long as its header says, or HDF5 would refuse to open it.
-  void restore_length() const noexcept;
-
-  struct GiveUp {
-    OutputFile& file;
-    ~GiveUp() {
-      if (file.broken_) file.restore_length();
-    }
-  };
   void give_back_blocks() const;
   int descriptor() const;
   hid_t keep(Handle handle, const char* action);

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <functional>
+#include <limits>
 
 #include "proto/error.hpp"
 #include "proto/result/reader.hpp"
@@ -19,17 +20,20 @@ namespace {
 
 /// Calls of pwrite() that succeed from now on; negative: all.
 long n_good_writes = -1;
+/// Writes to places behind this one fail, others succeed: a disk without a free block.
+off_t last_block_end = std::numeric_limits<off_t>::max();
 
 }  // namespace
 
 /// Stands before the C library's function, which HDF5 calls for every write: from a chosen call on the disk is full.
 /// The first failing call still writes half of its bytes, as a disk that runs full does.
 extern "C" ssize_t pwrite(int file, const void* data, size_t size, off_t offset) {
-  if (n_good_writes == 0) {
+  if (n_good_writes == 0 || offset >= last_block_end) {
     errno = ENOSPC;
     return -1;
   }
   if (n_good_writes > 0 && --n_good_writes == 0) size = (size + 1) / 2;
+  if (offset + static_cast<off_t>(size) > last_block_end) size = static_cast<size_t>(last_block_end - offset);
   return ::syscall(SYS_pwrite64, file, data, size, offset);
 }
 
@@ -89,6 +93,23 @@ TEST(DiskFull, FailingWriteAnywhereEndsWithOneErrorAndKeepsCommittedRows) {
     });
     expect_io_error(status);
     EXPECT_GE(whole_rows(path), 200u) << "write " << k << " failed";
+  }
+}
+
+// What is already on the disk can be rewritten, the file's header among it, but the file cannot grow: the header then
+// promises a longer file than there is.
+TEST(DiskFull, NoFreeBlockKeepsCommittedRows) {
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("coupling.h5");
+  for (off_t more = 1; more <= 400000; more += 9973) {
+    const int status = wait_status_of([&] {
+      auto file = proto::TimeSeriesFile::create(path, tests::sample_columns(), {}, 5);
+      for (std::size_t row = 0; row < 200; ++row) tests::write_sample_row(file, row);
+      last_block_end = static_cast<off_t>(std::filesystem::file_size(path)) + more;
+      for (std::size_t row = 200;; ++row) tests::write_sample_row(file, row);
+    });
+    expect_io_error(status);
+    EXPECT_GE(whole_rows(path), 200u) << more << " bytes of room";
   }
 }
 
