@@ -21,8 +21,8 @@ constexpr int sleeper = 0;  // body number
 constexpr double step_safety = 0.8;
 constexpr int contacts_of_a_node = 4;     // that touch at once, for the step before any does
 constexpr double pouring_skin = 3.0;      // candidate lists live longer while stones fall [roundings]
-constexpr double tamping_pressure = 3e3;  // [Pa]
-constexpr double tamping_speed = 0.4;     // [m/s]
+constexpr double tamping_pressure = 15e3;  // [Pa]
+constexpr double tamping_speed = 0.25;     // [m/s]
 
 /// Volume of a template rounded by r: Steiner's formula, V + A r + M r^2 + 4 pi/3 r^3 with M half the sum of edge
 /// length times exterior angle.
