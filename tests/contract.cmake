@@ -12,3 +12,6 @@ contract_test(schema_documented bash ${contract}/schema_documented.sh ${PROJECT_
               ${PROJECT_SOURCE_DIR}/proto/README.md)
 contract_test(schema_documented_control bash ${contract}/schema_documented_control.sh
               ${PROJECT_SOURCE_DIR}/proto/schema/coupling.fbs)
+if(TARGET coupler AND TARGET qdem_solver AND TARGET fem_solver)
+  contract_test(cases_accepted bash ${contract}/cases_accepted.sh $<TARGET_FILE:coupler> ${PROJECT_SOURCE_DIR})
+endif()
