@@ -2,7 +2,7 @@
 # What cases/run and tests/run share: the Debian packages this project needs, and how it is built.
 # Sourced by bash; sets house_root. Messages go to stderr.
 
-house_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+house_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 
 # Debian 12. The one list of packages; README.md names what each is for.
 house_packages=(
