@@ -101,7 +101,7 @@ proto::Configured FemParticipant::configure(const proto::Configure& request) {
   auto facts = model_facts(system_, input_.fem);
   facts.push_back(fact("fem.factor_entries", track_->n_factor_entries()));
   facts.push_back(fact("fem.local_indentation_m_per_n", track_->statics().indentation()));
-  facts.push_back(fact("fem.hertz_coefficient_n_per_m1.5", track_->hertz().coefficient()));
+  facts.push_back(fact("fem.hertz_stiffness_n_per_m", track_->hertz().at_force(input_.wheel.static_load).stiffness));
   return {std::nullopt, std::move(facts)};
 }
 
