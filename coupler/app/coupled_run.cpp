@@ -80,6 +80,7 @@ CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::
       fem_(supervisor_, "fem"),
       audit_(cell_counts(input.seats), input.coupling.window_s),
       begin_(std::chrono::steady_clock::now()) {
+  supervisor_.on_long_set_up([](const std::string& text) { fmt::print(stderr, "{}\n", text); });
   for (const auto& seat : input.seats) summary_.seats.push_back({seat.name, 0.0, 0.0, 0.0});
 }
 

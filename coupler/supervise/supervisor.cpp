@@ -164,10 +164,15 @@ std::map<std::string, proto::Hello> Supervisor::await_hellos() {
 proto::Message Supervisor::next(const std::string& name, bool set_up) {
   const auto start = Clock::now();
   auto& inbox = known_.at(name).inbox;
+  double told_s = 0.0;
   while (inbox.empty()) {
     pump(slice_s);
     check_signals();
     check_exits();
+    if (set_up && tell_ && seconds_since(start) - told_s > 10.0) {
+      told_s = seconds_since(start);
+      tell_(fmt::format("{} is setting up ({:.0f} s): {}", name, told_s, last_words(known_.at(name).log_path)));
+    }
     if (inbox.empty()) check_pulse(name, set_up, seconds_since(start));
   }
   auto message = std::move(inbox.front());

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -65,6 +66,9 @@ class Supervisor {
   void set_interruptible(bool interruptible) { interruptible_ = interruptible; }
   int stop_requested() const { return children_.stop_signal(); }
 
+  /// Is told every ten seconds of a set-up what is waited for and what that participant wrote last.
+  void on_long_set_up(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
+
   /// Waits for the Hello of every participant.
   std::map<std::string, proto::Hello> await_hellos();
 
@@ -110,6 +114,7 @@ class Supervisor {
   Patience patience_;
   std::map<std::string, Known> known_;
   std::string stage_ = "start-up", turned_away_;
+  std::function<void(const std::string&)> tell_;
   bool interruptible_ = true;
   double waited_s_ = 0.0;
 };
