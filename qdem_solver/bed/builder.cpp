@@ -21,8 +21,9 @@ constexpr int sleeper = 0;  // body number
 constexpr double step_safety = 0.8;
 constexpr int contacts_of_a_node = 4;     // that touch at once, for the step before any does
 constexpr double pouring_skin = 3.0;      // candidate lists live longer while stones fall [roundings]
-constexpr double tamping_pressure = 15e3;  // [Pa]
-constexpr double tamping_speed = 0.25;     // [m/s]
+constexpr double tamping_pressure = 4e3;  // [Pa]
+constexpr double hardening_drag = 400;    // [1/s]; stones that were squeezed part without gaining speed
+constexpr double tamping_speed = 0.1;     // [m/s]
 
 /// Volume of a template rounded by r: Steiner's formula, V + A r + M r^2 + 4 pi/3 r^3 with M half the sum of edge
 /// length times exterior angle.
@@ -280,7 +281,7 @@ void Builder::pour_layer() {
   }
   add_stones(layer_, {{-half + gap, half - gap, gap, s.wall() - gap}}, s.ground_level() + gap);
   const double fall = (top_of_stones() - s.ground_level()) / s.pour_speed;
-  run(0.5 * fall, 2 * fall, {0.04}, {});
+  run(0.4 * fall, 2 * fall, {0.06}, {});
   sleeper_bottom_ = tamp(-s.sleeper_height);
 }
 
@@ -299,7 +300,7 @@ void Builder::pour_crib() {
   add_stones(crib_, floor, top_of_stones() + gap);
   drop_contacts();
   const double fall = (top_of_stones() + s.sleeper_height) / s.pour_speed;
-  run(0.5 * fall, 2 * fall, {0.04}, {});
+  run(0.4 * fall, 2 * fall, {0.06}, {});
   tamp(sleeper_bottom_ + s.crib_height);
 }
 
@@ -311,9 +312,9 @@ void Builder::bed_in() {
   const double start = seat_height();
   const Softness soft{s.pour_young, s.pour_stiffness, physics_.contact.friction, 0.3, 0.0, 4.0};
   soften(soft, s.preload);
-  run(0.15, 0.6, {0.01}, {});
+  run(0.1, 0.3, {0.01}, {});
   soften(soft, 0);
-  run(0.03, 0.1, {0.01}, {});
+  run(0.02, 0.05, {0.01}, {});
   report_.sleeper_settlement = start - seat_height();
 }
 
@@ -324,7 +325,7 @@ void Builder::harden() {
   for (int level = 1; level <= s.ramp_levels; ++level) {
     const double share = static_cast<double>(level) / s.ramp_levels;
     soften({s.pour_young * std::pow(young, share), s.pour_stiffness * std::pow(stiffness, share),
-            physics_.contact.friction, 0.3, 0.5, 0.0},
+            physics_.contact.friction, 0.3, 0.5, hardening_drag},
            0);
     Engine engine(model_);
     engine.prepare(state_);
@@ -335,7 +336,8 @@ void Builder::harden() {
 
 void Builder::come_to_rest() {
   const Settings& s = settings_;
-  soften({physics_.stone.young, physics_.contact.normal_stiffness, physics_.contact.friction, 0.3, 0.5, 0.0}, 0);
+  soften({physics_.stone.young, physics_.contact.normal_stiffness, physics_.contact.friction, 0.3, 0.5, hardening_drag},
+         0);
   hold_sleeper(0u);
   Engine engine(model_);
   engine.prepare(state_);

@@ -65,8 +65,8 @@ void read_geometry(const Section& bed, Settings& s) {
 void read_procedure(const Section& bed, Settings& s) {
   s.target_porosity = bed.number_or("target_porosity", 0.41, Range::between(0.3, 0.6));
   s.pour_speed = bed.number_or("pour_speed_m_per_s", 1.2, Range::between(0.1, 5));
-  s.pour_young = bed.number_or("pour_young_pa", 6e7, Range::positive());
-  s.pour_stiffness = bed.number_or("pour_stiffness_n_per_m", 6e4, Range::positive());
+  s.pour_young = bed.number_or("pour_young_pa", 1e8, Range::positive());
+  s.pour_stiffness = bed.number_or("pour_stiffness_n_per_m", 1e5, Range::positive());
   s.pour_friction = bed.number_or("pour_friction", 0.1, Range::not_negative());
   s.preload = bed.number_or("preload_n", 2000, Range::not_negative());
   s.ramp_levels = static_cast<int>(bed.integer_or("ramp_levels", 8, Range::between(1, 50)));
