@@ -19,11 +19,13 @@ using Eigen::Vector3d;
 
 constexpr int sleeper = 0;  // body number
 constexpr double step_safety = 0.8;
-constexpr int contacts_of_a_node = 4;     // that touch at once, for the step before any does
-constexpr double pouring_skin = 3.0;      // candidate lists live longer while stones fall [roundings]
-constexpr double tamping_pressure = 4e3;  // [Pa]
-constexpr double hardening_drag = 400;    // [1/s]; stones that were squeezed part without gaining speed
-constexpr double tamping_speed = 0.1;     // [m/s]
+constexpr int contacts_of_a_node = 4;    // that touch at once, for the step before any does
+constexpr double pouring_skin = 3.0;     // candidate lists live longer while stones fall [roundings]
+constexpr double layer_pressure = 4e3;   // [Pa], where tamping ends
+constexpr double crib_pressure = 1.5e3;  // [Pa]
+constexpr double bedding_drag = 30;      // [1/s]
+constexpr double hardening_drag = 0.3;   // of the rattling frequency of a mean stone on one contact
+constexpr double tamping_speed = 0.2;    // [m/s]
 
 /// Volume of a template rounded by r: Steiner's formula, V + A r + M r^2 + 4 pi/3 r^3 with M half the sum of edge
 /// length times exterior angle.
@@ -58,8 +60,9 @@ Bed Builder::build() {
   make_stones();
   pour_layer();
   pour_crib();
+  harden(1, bedding_level());
   bed_in();
-  harden();
+  harden(bedding_level() + 1, settings_.ramp_levels);
   come_to_rest();
   finish();
   report_.build_wall_s = seconds_since(start);
@@ -231,7 +234,7 @@ void Builder::run(double least_time, double most_time, const Rest& rest, const s
       contacts.coordination_number, top_of_stones());
 }
 
-double Builder::tamp(double level) {
+double Builder::tamp(double level, double pressure) {
   const double r = physics_.contact.rounding;
   const double start = std::max(top_of_stones(), level) + r;
   const double area = settings_.wall() * settings_.spacing;
@@ -245,7 +248,7 @@ double Builder::tamp(double level) {
   drop_contacts();
   const auto place = [this] { return model_.planes.back().point[2] + state_.time * model_.planes.back().velocity[2]; };
   // Pressed until the level is reached or the pressure is: what remains above was too much for this porosity.
-  run(0, (start - level) / tamping_speed, {}, [&] { return pressure_on(place(), area) > tamping_pressure; });
+  run(0, (start - level) / tamping_speed, {}, [&] { return pressure_on(place(), area) > pressure; });
   const double reached = std::max(place(), level);
   model_.planes.back().velocity.setZero();
   model_.planes.back().point[2] = reached;
@@ -282,7 +285,7 @@ void Builder::pour_layer() {
   add_stones(layer_, {{-half + gap, half - gap, gap, s.wall() - gap}}, s.ground_level() + gap);
   const double fall = (top_of_stones() - s.ground_level()) / s.pour_speed;
   run(0.4 * fall, 2 * fall, {0.06}, {});
-  sleeper_bottom_ = tamp(-s.sleeper_height);
+  sleeper_bottom_ = tamp(-s.sleeper_height, layer_pressure);
 }
 
 void Builder::pour_crib() {
@@ -301,50 +304,61 @@ void Builder::pour_crib() {
   drop_contacts();
   const double fall = (top_of_stones() + s.sleeper_height) / s.pour_speed;
   run(0.4 * fall, 2 * fall, {0.06}, {});
-  tamp(sleeper_bottom_ + s.crib_height);
+  tamp(sleeper_bottom_ + s.crib_height, crib_pressure);
+}
+
+Builder::Softness Builder::at_level(int level, double drag) const {
+  const Settings& s = settings_;
+  const double share = static_cast<double>(level) / s.ramp_levels;
+  const double stiffness = s.pour_stiffness * std::pow(physics_.contact.normal_stiffness / s.pour_stiffness, share);
+  return {s.pour_young * std::pow(physics_.stone.young / s.pour_young, share),
+          stiffness,
+          physics_.contact.friction,
+          0.3,
+          0.5,
+          drag * rattling_frequency(stiffness)};
+}
+
+void Builder::harden(int first, int last) {
+  for (int level = first; level <= last; ++level) {
+    soften(at_level(level, hardening_drag), 0);
+    run_steps(settings_.ramp_steps, settings_.ramp_steps, {});
+  }
 }
 
 void Builder::bed_in() {
-  const Settings& s = settings_;
   add_planes();  // formwork away
   hold_sleeper(1u);
   drop_contacts();
   const double start = seat_height();
-  const Softness soft{s.pour_young, s.pour_stiffness, physics_.contact.friction, 0.3, 0.0, 4.0};
-  soften(soft, s.preload);
-  run(0.1, 0.3, {0.01}, {});
+  Softness soft = at_level(bedding_level(), 0.0);
+  soft.local_damping = 0.0, soft.drag = bedding_drag;
+  soften(soft, settings_.preload);
+  run(0.1, 0.2, {0.005}, {});
   soften(soft, 0);
-  run(0.02, 0.05, {0.01}, {});
+  run(0.02, 0.05, {0.005}, {});
   report_.sleeper_settlement = start - seat_height();
 }
 
-void Builder::harden() {
-  const Settings& s = settings_;
-  const double young = physics_.stone.young / s.pour_young;
-  const double stiffness = physics_.contact.normal_stiffness / s.pour_stiffness;
-  for (int level = 1; level <= s.ramp_levels; ++level) {
-    const double share = static_cast<double>(level) / s.ramp_levels;
-    soften({s.pour_young * std::pow(young, share), s.pour_stiffness * std::pow(stiffness, share),
-            physics_.contact.friction, 0.3, 0.5, hardening_drag},
-           0);
-    Engine engine(model_);
-    engine.prepare(state_);
-    const double dt = step_safety * stability(model_, state_, engine.contacts()).largest_step;
-    run(s.ramp_steps * dt, s.ramp_steps * dt, {}, {});
-  }
+void Builder::come_to_rest() {
+  soften(at_level(settings_.ramp_levels, 0.0), 0);
+  model_.drag_per_s = bedding_drag;
+  hold_sleeper(0u);
+  Rest rest;
+  rest.kinetic = 0.8 * settings_.kinetic_limit, rest.unbalanced = 0.8 * settings_.unbalanced_limit;
+  run_steps(1000, settings_.rest_steps, rest);
 }
 
-void Builder::come_to_rest() {
-  const Settings& s = settings_;
-  soften({physics_.stone.young, physics_.contact.normal_stiffness, physics_.contact.friction, 0.3, 0.5, hardening_drag},
-         0);
-  hold_sleeper(0u);
+void Builder::run_steps(int least, int most, const Rest& rest) {
   Engine engine(model_);
   engine.prepare(state_);
   const double dt = step_safety * stability(model_, state_, engine.contacts()).largest_step;
-  Rest rest;
-  rest.kinetic = s.kinetic_limit / 2, rest.unbalanced = s.unbalanced_limit / 2;
-  run(1000 * dt, s.rest_steps * dt, rest, {});
+  run(least * dt, most * dt, rest, {});
+}
+
+double Builder::rattling_frequency(double stiffness) const {
+  const double mean_mass = mass_of_stones() / static_cast<double>(model_.bodies.size() - 1);
+  return std::sqrt(stiffness / mean_mass);
 }
 
 double Builder::seat_height() const {

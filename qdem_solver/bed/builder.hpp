@@ -36,7 +36,7 @@ class Builder {
   void pour_layer();
   void pour_crib();
   void bed_in();
-  void harden();
+  void harden(int first, int last);
   void come_to_rest();
   void finish();
   void check_limits() const;
@@ -49,11 +49,16 @@ class Builder {
   void drop_spare_lanes();
   /// Steps for `most_time` [s]; after `least_time` ends early at rest, or when `enough` says so (every 200 steps).
   void run(double least_time, double most_time, const Rest& rest, const std::function<bool()>& enough);
-  /// Presses a plane down on the stones to `level` [m] or to the tamping pressure; returns where it stopped [m].
-  double tamp(double level);
+  /// Presses a plane down on the stones to `level` [m] or until it bears `pressure` [Pa]; returns where it stopped [m].
+  double tamp(double level, double pressure);
   double pressure_on(double level, double area) const;
   double top_of_stones() const;
   double mass_of_stones() const;
+  /// Level of the ramp from pouring (0) to real stiffness (ramp_levels).
+  Softness at_level(int level, double drag) const;
+  int bedding_level() const { return (3 * settings_.ramp_levels + 7) / 8; }
+  void run_steps(int least, int most, const Rest& rest);
+  double rattling_frequency(double stiffness) const;
   double seat_height() const;
   double envelope_volume(int template_id, double size) const;
 

@@ -64,21 +64,21 @@ void read_geometry(const Section& bed, Settings& s) {
 
 void read_procedure(const Section& bed, Settings& s) {
   s.target_porosity = bed.number_or("target_porosity", 0.41, Range::between(0.3, 0.6));
-  s.pour_speed = bed.number_or("pour_speed_m_per_s", 1.2, Range::between(0.1, 5));
+  s.pour_speed = bed.number_or("pour_speed_m_per_s", 1.5, Range::between(0.1, 5));
   s.pour_young = bed.number_or("pour_young_pa", 1e8, Range::positive());
   s.pour_stiffness = bed.number_or("pour_stiffness_n_per_m", 1e5, Range::positive());
   s.pour_friction = bed.number_or("pour_friction", 0.1, Range::not_negative());
   s.preload = bed.number_or("preload_n", 2000, Range::not_negative());
   s.ramp_levels = static_cast<int>(bed.integer_or("ramp_levels", 8, Range::between(1, 50)));
-  s.ramp_steps = static_cast<int>(bed.integer_or("ramp_steps", 1500, Range::between(10, 1e6)));
-  s.rest_steps = static_cast<int>(bed.integer_or("rest_steps", 30000, Range::between(10, 1e7)));
+  s.ramp_steps = static_cast<int>(bed.integer_or("ramp_steps", 4000, Range::between(10, 1e6)));
+  s.rest_steps = static_cast<int>(bed.integer_or("rest_steps", 60000, Range::between(10, 1e7)));
 }
 
 void read_limits(const Section& bed, Settings& s) {
   const auto porosity = read_range(bed, "porosity_limits", {0.38, 0.45}, share);
   s.porosity_lowest = porosity.lowest, s.porosity_highest = porosity.highest;
-  s.unbalanced_limit = bed.number_or("unbalanced_limit", 0.01, Range::positive());
-  s.kinetic_limit = bed.number_or("kinetic_energy_limit_j", 1e-3, Range::positive());
+  s.unbalanced_limit = bed.number_or("unbalanced_limit", 0.03, Range::positive());
+  s.kinetic_limit = bed.number_or("kinetic_energy_limit_j", 0.05, Range::positive());
   s.penetration_limit = bed.number_or("penetration_limit_m", 0, Range::not_negative());
   s.tilt_limit = bed.number_or("sleeper_tilt_limit_rad", 5e-3, Range::positive());
 }
