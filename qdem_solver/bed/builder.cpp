@@ -343,10 +343,10 @@ void Builder::bed_in() {
 void Builder::come_to_rest() {
   soften(at_level(settings_.ramp_levels, 0.0), 0);
   model_.drag_per_s = bedding_drag;
-  hold_sleeper(0u);
   Rest rest;
   rest.kinetic = 0.8 * settings_.kinetic_limit, rest.unbalanced = 0.8 * settings_.unbalanced_limit;
   run_steps(1000, settings_.rest_steps, rest);
+  hold_sleeper(0u);  // along the track and upright the rail holds it from now on
 }
 
 void Builder::run_steps(int least, int most, const Rest& rest) {
