@@ -148,7 +148,8 @@ void CoupledRun::account(const WindowRecord& record) {
 void CoupledRun::initialise() {
   const auto& coupling = input_.coupling;
   if (coupling.initialise_max_windows == 0) return;
-  RestWatch watch(coupling.initialise_min_windows, coupling.initialise_check_windows, coupling.initialise_tolerance);
+  RestWatch watch(coupling.initialise_min_windows, coupling.initialise_check_windows, coupling.initialise_tolerance,
+                  coupling.initialise_force_floor);
   Progress progress("relaxing", coupling.initialise_max_windows, coupling.window_s);
   bool at_rest = false;
   for (int n = 0; !at_rest && n < coupling.initialise_max_windows; ++n) {

@@ -6,10 +6,11 @@
 
 namespace coupler {
 
-RestWatch::RestWatch(int min_windows, int check_windows, double tolerance)
+RestWatch::RestWatch(int min_windows, int check_windows, double tolerance, double force_floor)
     : min_windows_(static_cast<std::size_t>(std::max(min_windows, 0))),
       check_windows_(static_cast<std::size_t>(std::max(check_windows, 1))),
       tolerance_(tolerance),
+      force_floor_(force_floor),
       change_(std::numeric_limits<double>::infinity()) {}
 
 bool RestWatch::add(const std::vector<double>& seat_force) {
@@ -24,7 +25,7 @@ bool RestWatch::add(const std::vector<double>& seat_force) {
       lowest = std::min(lowest, forces[s]);
       highest = std::max(highest, forces[s]);
     }
-    const double band = highest - lowest, scale = std::abs(seat_force[s]);
+    const double band = highest - lowest, scale = std::max(std::abs(seat_force[s]), force_floor_);
     // A seat that carries nothing at all is at rest; one that swings about nothing is not.
     if (band > 0.0) change_ = std::max(change_, scale > 0.0 ? band / scale : std::numeric_limits<double>::infinity());
   }

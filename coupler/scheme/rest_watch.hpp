@@ -11,8 +11,8 @@ namespace coupler {
 class RestWatch {
  public:
   /// Rest is: over the last `check_windows` windows, and after at least `min_windows`, the force of every seat stayed
-  /// within a band of `tolerance` times its last value.
-  RestWatch(int min_windows, int check_windows, double tolerance);
+  /// within a band of `tolerance` times the larger of its last value and `force_floor` [N].
+  RestWatch(int min_windows, int check_windows, double tolerance, double force_floor = 0.0);
 
   /// Normal force of every seat in one more window [N]. Returns true at rest.
   bool add(const std::vector<double>& seat_force);
@@ -22,7 +22,7 @@ class RestWatch {
 
  private:
   std::size_t min_windows_, check_windows_, n_windows_ = 0;
-  double tolerance_, change_;
+  double tolerance_, force_floor_, change_;
   std::deque<std::vector<double>> history_;
 };
 

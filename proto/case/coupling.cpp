@@ -34,6 +34,7 @@ void read_initialise(const Section& section, Coupling& coupling) {
   coupling.initialise_min_windows = count("min_windows", coupling.initialise_min_windows, 0);
   coupling.initialise_check_windows = count("check_windows", coupling.initialise_check_windows, 1);
   coupling.initialise_tolerance = section.number_or("tolerance", coupling.initialise_tolerance, Range::positive());
+  coupling.initialise_force_floor = section.number_or("force_floor_n", 0.0, Range::not_negative());
   if (coupling.initialise_min_windows > coupling.initialise_max_windows)
     section.fail("min_windows", "min_windows is greater than max_windows");
 }

@@ -25,6 +25,7 @@ struct Coupling {
   int initialise_max_windows = 0;  ///< 0: no initialise phase
   int initialise_min_windows = 0;
   double initialise_tolerance = 1e-3;  ///< relative change of the seat force over `initialise_check_windows`
+  double initialise_force_floor = 0.0;  ///< the change is relative to at least this force [N]
   int initialise_check_windows = 40;
   double connect_timeout_s = 60.0;
   double stall_timeout_s = 60.0;  ///< alive but without progress
@@ -34,7 +35,7 @@ struct Coupling {
 /// Reads `[coupling]`:
 ///   scheme "R1"|"E1", window_s, duration_s (a whole number of windows), output_interval_s, connect_timeout_s,
 ///   stall_timeout_s, qdem_command [..] (default ["qdem_solver", "participant"]), fem_command [..] (default
-///   ["fem_solver", "participant"]); [coupling.initialise] max_windows, min_windows, check_windows, tolerance.
+///   ["fem_solver", "participant"]); [coupling.initialise] max_windows, min_windows, check_windows, tolerance, force_floor_n.
 Coupling read_coupling(const CaseFile& file);
 
 }  // namespace proto

@@ -58,6 +58,7 @@ void add_settings(InputHash& hash, const bed::Settings& s) {
                              s.pour_young,
                              s.pour_stiffness,
                              s.pour_friction,
+                             s.pour_swelling,
                              s.preload,
                              static_cast<double>(s.ramp_levels),
                              static_cast<double>(s.ramp_steps),

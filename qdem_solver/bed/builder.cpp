@@ -8,6 +8,7 @@
 
 #include "proto/error.hpp"
 #include "qdem_solver/bed/porosity.hpp"
+#include "qdem_solver/bed/rigid_fit.hpp"
 #include "qdem_solver/bed/sleeper_shape.hpp"
 #include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/engine/stability.hpp"
@@ -19,13 +20,16 @@ using Eigen::Vector3d;
 
 constexpr int sleeper = 0;  // body number
 constexpr double step_safety = 0.8;
-constexpr int contacts_of_a_node = 4;    // that touch at once, for the step before any does
-constexpr double pouring_skin = 3.0;     // candidate lists live longer while stones fall [roundings]
-constexpr double layer_pressure = 4e3;   // [Pa], where tamping ends
-constexpr double crib_pressure = 1.5e3;  // [Pa]
-constexpr double bedding_drag = 30;      // [1/s]
-constexpr double hardening_drag = 0.3;   // of the rattling frequency of a mean stone on one contact
-constexpr double tamping_speed = 0.2;    // [m/s]
+constexpr int contacts_of_a_node = 4;     // that touch at once, for the step before any does
+constexpr double pouring_skin = 3.0;      // candidate lists live longer while stones fall [roundings]
+constexpr double layer_pressure = 4e3;    // [Pa], where tamping ends
+constexpr double crib_pressure = 1.5e3;   // [Pa]
+constexpr double bedding_drag = 30;       // [1/s]
+constexpr double hardening_drag = 1.0;    // of the rattling frequency of a mean stone on one contact
+constexpr double heaved_share = 0.95;     // of the sleeper's weight; drag would keep a heavy sleeper down
+constexpr double calm_kinetic = 1e-3;     // [J], and
+constexpr double calm_unbalanced = 3e-3;  // [-], before the bed is made harder
+constexpr double tamping_speed = 0.2;     // [m/s]
 
 /// Volume of a template rounded by r: Steiner's formula, V + A r + M r^2 + 4 pi/3 r^3 with M half the sum of edge
 /// length times exterior angle.
@@ -60,7 +64,9 @@ Bed Builder::build() {
   make_stones();
   pour_layer();
   pour_crib();
-  harden(1, bedding_level());
+  restore_shapes();
+  settle();
+  harden(settling_level() + 1, bedding_level());
   bed_in();
   harden(bedding_level() + 1, settings_.ramp_levels);
   come_to_rest();
@@ -132,13 +138,15 @@ void Builder::soften(const Softness& softness, double preload) {
   model_.local_damping = softness.local_damping;
   model_.drag_per_s = softness.drag;
   // Dead load as extra weight of the sleeper, spread as its mass is.
-  const double weight = model_.body_mass(sleeper) * physics_.gravity.norm();
-  if (preload > 0 && weight > 0) model_.materials[1].density *= 1 + preload / weight;
+  const double weight = sleeper_weight();
+  if (weight > 0) model_.materials[1].density *= 1 + preload / weight;
 }
 
 void Builder::add_stones(const std::vector<Stone>& stones, const std::vector<Rectangle>& floor, double bottom) {
   std::vector<double> scales;
-  for (const Stone& stone : stones) scales.push_back(stone.size - 2 * physics_.contact.rounding);
+  for (const Stone& stone : stones) {
+    scales.push_back((1 + settings_.pour_swelling) * (stone.size - 2 * physics_.contact.rounding));
+  }
   const auto places =
       stack_loosely(model_.templates, stones, scales, floor, bottom, 1.5 * physics_.contact.rounding, random_);
   const Model before = model_;
@@ -321,22 +329,43 @@ Builder::Softness Builder::at_level(int level, double drag) const {
 
 void Builder::harden(int first, int last) {
   for (int level = first; level <= last; ++level) {
-    soften(at_level(level, hardening_drag), 0);
+    soften(at_level(level, hardening_drag), -heaved_share * sleeper_weight());
     run_steps(settings_.ramp_steps, settings_.ramp_steps, {});
   }
 }
 
-void Builder::bed_in() {
+void Builder::restore_shapes() {
+  std::vector<Placement> placements;
+  std::vector<Body> bodies = model_.bodies;
+  for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
+    if (bodies[b].kind == BodyKind::stone) bodies[b].scale /= 1 + settings_.pour_swelling;
+    placements.push_back(rigid_fit(model_, state_, b, bodies[b].scale));
+  }
+  model_.bodies = std::move(bodies);
+  make_batches(model_);
+  State state = make_state(model_, placements);
+  state.time = state_.time, state.step = state_.step;
+  state_ = std::move(state);
+}
+
+void Builder::settle() {
   add_planes();  // formwork away
   hold_sleeper(1u);
   drop_contacts();
+  Softness soft = at_level(settling_level(), 0.0);
+  soft.drag = bedding_drag;
+  soften(soft, 0);
+  run(0.05, 0.25, {0.0, calm_unbalanced, calm_kinetic}, {});
+}
+
+void Builder::bed_in() {
   const double start = seat_height();
   Softness soft = at_level(bedding_level(), 0.0);
-  soft.local_damping = 0.0, soft.drag = bedding_drag;
+  soft.drag = bedding_drag;
   soften(soft, settings_.preload);
-  run(0.1, 0.2, {0.005}, {});
+  run(0.03, 0.1, {0.005}, {});
   soften(soft, 0);
-  run(0.02, 0.05, {0.005}, {});
+  run(0.03, 0.1, {0.0, calm_unbalanced, calm_kinetic}, {});
   report_.sleeper_settlement = start - seat_height();
 }
 
@@ -354,6 +383,10 @@ void Builder::run_steps(int least, int most, const Rest& rest) {
   engine.prepare(state_);
   const double dt = step_safety * stability(model_, state_, engine.contacts()).largest_step;
   run(least * dt, most * dt, rest, {});
+}
+
+double Builder::sleeper_weight() const {
+  return physics_.sleeper.density * model_.shape(sleeper).volume() * physics_.gravity.norm();
 }
 
 double Builder::rattling_frequency(double stiffness) const {

@@ -54,9 +54,15 @@ class Builder {
   double pressure_on(double level, double area) const;
   double top_of_stones() const;
   double mass_of_stones() const;
+  double sleeper_weight() const;  ///< [N]
+  /// Stones undeformed, at their true size, at rest where they are; contacts forgotten.
+  void restore_shapes();
+  /// The formwork goes; the stones come to rest, soft, under gravity and the sleeper.
+  void settle();
   /// Level of the ramp from pouring (0) to real stiffness (ramp_levels).
   Softness at_level(int level, double drag) const;
-  int bedding_level() const { return (3 * settings_.ramp_levels + 7) / 8; }
+  int settling_level() const { return (3 * settings_.ramp_levels + 7) / 8; }
+  int bedding_level() const { return (6 * settings_.ramp_levels + 7) / 8; }
   void run_steps(int least, int most, const Rest& rest);
   double rattling_frequency(double stiffness) const;
   double seat_height() const;

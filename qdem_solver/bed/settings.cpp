@@ -68,7 +68,8 @@ void read_procedure(const Section& bed, Settings& s) {
   s.pour_young = bed.number_or("pour_young_pa", 1e8, Range::positive());
   s.pour_stiffness = bed.number_or("pour_stiffness_n_per_m", 1e5, Range::positive());
   s.pour_friction = bed.number_or("pour_friction", 0.1, Range::not_negative());
-  s.preload = bed.number_or("preload_n", 2000, Range::not_negative());
+  s.pour_swelling = bed.number_or("pour_swelling", 0.02, Range::between(0, 0.1));
+  s.preload = bed.number_or("preload_n", 20000, Range::not_negative());
   s.ramp_levels = static_cast<int>(bed.integer_or("ramp_levels", 8, Range::between(1, 50)));
   s.ramp_steps = static_cast<int>(bed.integer_or("ramp_steps", 4000, Range::between(10, 1e6)));
   s.rest_steps = static_cast<int>(bed.integer_or("rest_steps", 60000, Range::between(10, 1e7)));

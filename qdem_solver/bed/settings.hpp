@@ -32,6 +32,7 @@ struct Settings {
   double pour_young = 0;       ///< of stones while they are poured [Pa]
   double pour_stiffness = 0;   ///< contact stiffness while they are poured [N/m]
   double pour_friction = 0;    ///< while they are poured and tamped [-]
+  double pour_swelling = 0;    ///< stones are poured larger by this share; at true size soft contacts part [-]
   double preload = 0;          ///< extra weight on the half sleeper while it beds in [N]
   int ramp_levels = 0;         ///< from soft to real stiffness
   int ramp_steps = 0;          ///< of each level

@@ -1,6 +1,7 @@
 #include "qdem_solver/bed/stone_shape.hpp"
 
 #include <gmsh.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +17,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Gmsh keeps one global session; this one is silent and serial, so that a mesh depends on its input alone.
+/// Gmsh keeps one global session; this one is silent and serial, so that a mesh depends on its input alone. Gmsh sets
+/// the program's number of OpenMP threads; the destructor puts it back.
 class GmshSession {
  public:
-  GmshSession() {
+  GmshSession() : n_threads_(omp_get_max_threads()) {
     gmsh::initialize();
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.NumThreads", 1);
@@ -27,9 +29,15 @@ class GmshSession {
     gmsh::option::setNumber("Mesh.Optimize", 1);
     gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 1);
   }
-  ~GmshSession() { gmsh::finalize(); }
+  ~GmshSession() {
+    gmsh::finalize();
+    omp_set_num_threads(n_threads_);
+  }
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
+
+ private:
+  int n_threads_;
 };
 
 void add_geometry(const Polyhedron& shape, double size) {

@@ -179,6 +179,15 @@ TEST(RestWatch, WaitsForTheBandAndTheMinimum) {
   EXPECT_TRUE(tests::near_rel(watch.change(), 0.3 / 100.4, 1e-9));
 }
 
+TEST(RestWatch, BelowTheFloorTheChangeIsRelativeToIt) {
+  coupler::RestWatch loose(0, 2, 1e-2, 1000.0), strict(0, 2, 1e-2);
+  bool loose_rests = false, strict_rests = false;
+  for (const double force : {10.0, 14.0, 12.0}) loose_rests = loose.add({force}), strict_rests = strict.add({force});
+  EXPECT_TRUE(loose_rests);
+  EXPECT_FALSE(strict_rests);
+  EXPECT_NEAR(loose.change(), 4.0 / 1000.0, 1e-15);
+}
+
 TEST(RestWatch, ASwingAboutNothingIsNoRest) {
   coupler::RestWatch watch(0, 2, 1e-2);
   for (int n = 0; n < 50; ++n) EXPECT_FALSE(watch.add({n % 2 ? 1.0 : -1.0}));
