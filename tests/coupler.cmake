@@ -24,3 +24,9 @@ house_test(coupler_supervisor_test integration SOURCES integration/coupler_super
 add_dependencies(coupler_supervisor_test coupler oscillator_participant)
 house_test(coupler_record_test unit SOURCES unit/coupler_record.cpp
            LIBRARIES coupler::record nlohmann_json::nlohmann_json)
+
+# The whole chain; the first test builds the bed of the quick case.
+house_test(wheel_passage_test integration SOURCES integration/wheel_passage.cpp
+           LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 1500)
+add_dependencies(wheel_passage_test coupler qdem_solver fem_solver)
+set_tests_properties(wheel_passage_test PROPERTIES RUN_SERIAL TRUE)

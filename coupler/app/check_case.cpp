@@ -1,7 +1,9 @@
+#include <fmt/format.h>
 #include "coupler/app/case_input.hpp"
 #include "coupler/app/options.hpp"
 #include "coupler/launch/children.hpp"
 #include "coupler/launch/program_path.hpp"
+
 #include "proto/error.hpp"
 
 namespace coupler {
@@ -33,6 +35,7 @@ int check_case(const std::string& case_path) {
     if (exit.signal) throw proto::Error(proto::ExitCode::unavailable, spec.command.front() + " check " + exit.text());
     if (exit.code) return exit.code;
   }
+  fmt::print("{}: valid\n", case_path);
   return 0;
 }
 

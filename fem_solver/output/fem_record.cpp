@@ -45,7 +45,7 @@ FemRecord::FemRecord(const std::string& directory, const proto::CaseFile& file, 
   options.mesh = corner_mesh(*system.mesh, corner_nodes_);
   options.fields = {{"displacement", "m", "of the rail from its unloaded, weightless state", Location::point, 3},
                     {"velocity", "m/s", "of the rail", Location::point, 3},
-                    {"von_mises", "Pa", "von Mises stress at the centre of the element", Location::cell, 1}};
+                    {"von_mises_stress", "Pa", "von Mises stress at the centre of the element", Location::cell, 1}};
   options.histories = {{"time", "s", "end of the window", {}},
                        {"wheel/position", "m", "x of the contact at the middle of the window", {}},
                        {"wheel/contact_force", "N", "mean over the window, pressing", {}},
@@ -60,7 +60,7 @@ void FemRecord::fields(const WheelTrack& track) {
   file_->begin_step(static_cast<double>(state.windows) * window_s_);
   file_->put("displacement", at_nodes(corner_nodes_, state.track.displacement));
   file_->put("velocity", at_nodes(corner_nodes_, state.track.velocity));
-  file_->put("von_mises", system_.mesh->von_mises(state.track.displacement, material_));
+  file_->put("von_mises_stress", system_.mesh->von_mises(state.track.displacement, material_));
   file_->end_step();
 }
 
