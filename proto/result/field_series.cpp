@@ -20,15 +20,17 @@ struct FieldSeriesFile::Data {
     return *history;
   }
 
-  /// Writes a step if `with_step`, and the pending history rows: values, flush, counters, flush.
+  /// Writes a step if `with_step`, and the pending history rows: values, flush, the history's counter, flush, the step's
+  /// counter, flush; so the history is never behind the steps.
   void commit(bool with_step) {
     const std::uint64_t bytes = (with_step ? fields.step_bytes() : 0) + (history ? history->pending_bytes() : 0);
     file.write(bytes, [&] {
       if (with_step) fields.write_step(file);
       if (history) history->write_pending(file);
       file.flush();
-      if (with_step) fields.mark_committed(file);
       if (history) history->mark_committed(file);
+      if (history && with_step) file.flush();
+      if (with_step) fields.mark_committed(file);
       file.flush();
     });
   }

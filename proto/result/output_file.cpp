@@ -44,6 +44,8 @@ OutputFile::OutputFile(const std::string& path, const Attributes& attributes) : 
   // No lock: a running simulation's file can be looked at, and a stale lock of a killed one cannot be in the way.
   H5Pset_file_locking(access.id(), false, true);
   H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  // A write that SIGKILL interrupts may stop at a page's end: an index node within one page is old or new, never both.
+  H5Pset_alignment(access.id(), 512, 4096);
   Handle creation = timeless(H5P_FILE_CREATE);
   file_ = Handle(check(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), "create"), H5Fclose);
   for (const auto& [name, value] : attributes) write_attribute(file_.id(), name, value);
