@@ -137,6 +137,7 @@ proto::FieldSet FemParticipant::advance(const proto::Advance& request, proto::Pr
     output = track_->relax(input);
   }
   progress.bump();
+  force_used_ = output.force_used;
   proto::FieldSet data = motion();
   data.set(field::force_used, values(output.force_used));
   data.set(field::force_robin, values(output.force_robin));
@@ -159,10 +160,11 @@ void FemParticipant::rollback(const proto::Rollback&) {
 proto::FieldSet FemParticipant::start() {
   track_->start();
   committed_ = track_->state();
+  if (force_used_.size() == 0) force_used_ = Eigen::VectorXd::Zero(track_->cell_displacement().size());
   record_->begin(*track_);
   proto::FieldSet data = motion();
-  data.set(field::force_robin, values(committed_.last.force));
-  data.set(field::force_used, values(committed_.last.force));
+  data.set(field::force_robin, values(force_used_));
+  data.set(field::force_used, values(force_used_));
   return data;
 }
 

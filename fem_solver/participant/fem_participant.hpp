@@ -59,6 +59,7 @@ class FemParticipant : public proto::Participant {
   std::unique_ptr<WheelTrack> track_;
   std::unique_ptr<FemRecord> record_;
   RunState committed_;
+  Eigen::VectorXd force_used_;  // of the last window, per interface value [N]
   proto::Phase phase_ = proto::Phase::initialise;
   bool relaxed_ = false;  // a window of the initialise phase has set the static state
   double largest_contact_ = 0.0, smallest_contact_ = 0.0, lowest_wheel_ = 0.0;
