@@ -72,7 +72,7 @@ void read_procedure(const Section& bed, Settings& s) {
   s.preload = bed.number_or("preload_n", 20000, Range::not_negative());
   s.ramp_levels = static_cast<int>(bed.integer_or("ramp_levels", 8, Range::between(1, 50)));
   s.ramp_steps = static_cast<int>(bed.integer_or("ramp_steps", 4000, Range::between(10, 1e6)));
-  s.rest_steps = static_cast<int>(bed.integer_or("rest_steps", 60000, Range::between(10, 1e7)));
+  s.rest_steps = static_cast<int>(bed.integer_or("rest_steps", 150000, Range::between(10, 1e7)));
 }
 
 void read_limits(const Section& bed, Settings& s) {
