@@ -32,7 +32,8 @@ struct BedReport {
   double kinetic_energy = 0.0;          ///< of all bodies [J]
   double d50 = 0.0;                     ///< sieve size that half of the stones' mass passes [m]
   double elements_per_stone = 0.0;
-  double sleeper_settlement = 0.0;  ///< downward move of the sleeper while it was bedded in [m]
+  double sleeper_settlement = 0.0;  ///< downward move of the sleeper while the bed was consolidated [m]
+  double stiffness = 0.0;           ///< of the bed: preload over the sleeper's rise as the last one was taken away [N/m]
   double sleeper_shift = 0.0;       ///< along the track, taken out by shifting the bed [m]
   double sleeper_tilt = 0.0;        ///< pitch about the lateral axis that is left [rad]
   double build_wall_s = 0.0;

@@ -7,8 +7,21 @@
 #include "qdem_solver/bed/bed.hpp"
 #include "qdem_solver/bed/loose_stack.hpp"
 #include "qdem_solver/bed/settings.hpp"
+#include "qdem_solver/engine/engine.hpp"
 
 namespace qdem::bed {
+
+/// How long a part of the procedure takes at least and at most [s].
+struct Duration {
+  double least, most;  ///< [s]
+};
+
+/// When a run may end before its last step.
+struct Rest {
+  double speed = 0.0;       ///< root mean square over mass [m/s]; 0: never
+  double unbalanced = 0.0;  ///< ratio; 0: not asked
+  double kinetic = 0.0;     ///< [J]; 0: not asked
+};
 
 /// Builds one bed; README.md describes the stages. Use once: `Builder(settings, physics).build()`.
 class Builder {
@@ -25,45 +38,44 @@ class Builder {
     double friction, damping_ratio;
     double local_damping, drag;
   };
-  /// When a run may end before its last step.
-  struct Rest {
-    double speed = 0.0;       ///< root mean square over mass [m/s]; 0: never
-    double unbalanced = 0.0;  ///< ratio; 0: not asked
-    double kinetic = 0.0;     ///< [J]; 0: not asked
-  };
-
+  /// Called every few steps with the time since the run began [s]; true ends it.
+  using Look = std::function<bool(double)>;
   void make_stones();
   void pour_layer();
   void pour_crib();
-  void bed_in();
-  void harden(int first, int last);
+  /// Formwork and stones beyond the profile go; the others get their true size and shape where they are, at rest.
+  void strip();
+  void settle();
+  void harden();
+  void consolidate();
+  void ramp_load(double from, double to);
   void come_to_rest();
   void finish();
   void check_limits() const;
 
   void add_planes();
-  void soften(const Softness& softness, double preload);
+  void soften(const Softness& softness);
   void add_stones(const std::vector<Stone>& stones, const std::vector<Rectangle>& floor, double bottom);
   void hold_sleeper(unsigned mask);
   void drop_contacts();
   void drop_spare_lanes();
-  /// Steps for `most_time` [s]; after `least_time` ends early at rest, or when `enough` says so (every 200 steps).
-  void run(double least_time, double most_time, const Rest& rest, const std::function<bool()>& enough);
+
+  /// Relaxes (relaxation.hpp) for at least duration.least [s]; then ends early at rest, or any time when `look` says so.
+  void run(const Duration& duration, const Rest& rest = {}, const Look& look = {});
+  void run_steps(int most, const Rest& rest);
+  void run_with_true_masses(int least_steps, int most_steps, const Rest& rest);
+  int contact_points() const;  ///< of a stone, for the relaxation's step
+  void march(Engine& engine, double dt, const Duration& duration, const Rest& rest, const Look& look);
   /// Presses a plane down on the stones to `level` [m] or until it bears `pressure` [Pa]; returns where it stopped [m].
   double tamp(double level, double pressure);
   double pressure_on(double level, double area) const;
   double top_of_stones() const;
   double mass_of_stones() const;
   double sleeper_weight() const;  ///< [N]
-  /// Stones undeformed, at their true size, at rest where they are; contacts forgotten.
-  void restore_shapes();
-  /// The formwork goes; the stones come to rest, soft, under gravity and the sleeper.
-  void settle();
+  Eigen::Vector3d body_centre(int body) const;
   /// Level of the ramp from pouring (0) to real stiffness (ramp_levels).
-  Softness at_level(int level, double drag) const;
+  Softness at_level(int level) const;
   int settling_level() const { return (3 * settings_.ramp_levels + 7) / 8; }
-  int bedding_level() const { return (6 * settings_.ramp_levels + 7) / 8; }
-  void run_steps(int least, int most, const Rest& rest);
   double rattling_frequency(double stiffness) const;
   double seat_height() const;
   double envelope_volume(int template_id, double size) const;
@@ -72,6 +84,8 @@ class Builder {
   const BedPhysics& physics_;
   Random random_;
   std::vector<Stone> layer_, crib_;
+  bool falling_ = true;          ///< stones may still fall on others
+  double loaded_height_ = 0.0;   ///< of the seat under the last preload [m]
   double sleeper_bottom_ = 0.0;  ///< where the tamped layer ends, before the last shift [m]
   Model model_;
   State state_;

@@ -69,17 +69,19 @@ void read_procedure(const Section& bed, Settings& s) {
   s.pour_stiffness = bed.number_or("pour_stiffness_n_per_m", 1e5, Range::positive());
   s.pour_friction = bed.number_or("pour_friction", 0.1, Range::not_negative());
   s.pour_swelling = bed.number_or("pour_swelling", 0.02, Range::between(0, 0.1));
-  s.preload = bed.number_or("preload_n", 20000, Range::not_negative());
   s.ramp_levels = static_cast<int>(bed.integer_or("ramp_levels", 8, Range::between(1, 50)));
-  s.ramp_steps = static_cast<int>(bed.integer_or("ramp_steps", 4000, Range::between(10, 1e6)));
-  s.rest_steps = static_cast<int>(bed.integer_or("rest_steps", 150000, Range::between(10, 1e7)));
+  s.ramp_steps = static_cast<int>(bed.integer_or("ramp_steps", 300, Range::between(10, 1e6)));
+  s.preload = bed.number_or("preload_n", 40e3, Range::not_negative());
+  s.preload_cycles = static_cast<int>(bed.integer_or("preload_cycles", 3, Range::between(0, 1e4)));
+  s.preload_steps = static_cast<int>(bed.integer_or("preload_steps", 1500, Range::between(10, 1e6)));
+  s.rest_steps = static_cast<int>(bed.integer_or("rest_steps", 100000, Range::between(10, 1e7)));
 }
 
 void read_limits(const Section& bed, Settings& s) {
   const auto porosity = read_range(bed, "porosity_limits", {0.38, 0.45}, share);
   s.porosity_lowest = porosity.lowest, s.porosity_highest = porosity.highest;
-  s.unbalanced_limit = bed.number_or("unbalanced_limit", 0.03, Range::positive());
-  s.kinetic_limit = bed.number_or("kinetic_energy_limit_j", 0.05, Range::positive());
+  s.unbalanced_limit = bed.number_or("unbalanced_limit", 1e-5, Range::positive());
+  s.kinetic_limit = bed.number_or("kinetic_energy_limit_j", 1e-9, Range::positive());
   s.penetration_limit = bed.number_or("penetration_limit_m", 0, Range::not_negative());
   s.tilt_limit = bed.number_or("sleeper_tilt_limit_rad", 5e-3, Range::positive());
 }

@@ -33,10 +33,12 @@ struct Settings {
   double pour_stiffness = 0;   ///< contact stiffness while they are poured [N/m]
   double pour_friction = 0;    ///< while they are poured and tamped [-]
   double pour_swelling = 0;    ///< stones are poured larger by this share; at true size soft contacts part [-]
-  double preload = 0;          ///< extra weight on the half sleeper while it beds in [N]
   int ramp_levels = 0;         ///< from soft to real stiffness
   int ramp_steps = 0;          ///< of each level
-  int rest_steps = 0;          ///< at most, at real stiffness
+  double preload = 0;          ///< largest load on the half sleeper while the bed is consolidated [N]
+  int preload_cycles = 0;      ///< how often it comes and goes
+  int preload_steps = 0;       ///< in which it comes, and in which it goes
+  int rest_steps = 0;          ///< at most, until the bed is at rest
 
   double porosity_lowest = 0, porosity_highest = 0;  ///< limits of the result [-]
   double unbalanced_limit = 0;                       ///< of the result [-]
@@ -50,8 +52,8 @@ struct Settings {
   double half_length() const { return sleeper_length / 2; }
   double ground_level() const { return -sleeper_height - depth; }      ///< z [m]
   double crib_level() const { return -sleeper_height + crib_height; }  ///< z [m]
-  /// Where a vertical wall holds as much ballast as the slope does [m].
-  double wall() const { return half_length() + shoulder_width + shoulder_slope * (depth + crib_height) / 2; }
+  /// Foot of the shoulder's slope: y of the formwork's wall [m].
+  double wall() const { return half_length() + shoulder_width + shoulder_slope * (depth + crib_height); }
 };
 
 /// Reads and checks [bed], [track] and the rail seats. Throws proto::Error (config).

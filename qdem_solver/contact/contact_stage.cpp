@@ -7,6 +7,7 @@
 
 #include "proto/error.hpp"
 #include "qdem_solver/contact/candidates.hpp"
+#include "qdem_solver/contact/contact_rates.hpp"
 #include "qdem_solver/contact/entry_force.hpp"
 
 namespace qdem {
@@ -27,13 +28,6 @@ std::vector<Eigen::Vector3d> carried_slip(const ContactState& old, const std::ve
     if (i < old.keys.size() && old.keys[i] == keys[k]) slip[k] = old.slip[i];
   }
   return slip;
-}
-
-bool is_plane(const ContactKey& key) {
-  return key.body_b < 0;
-}
-bool is_edge_pair(const ContactKey& key) {
-  return key.feature_b >= 0;
 }
 
 }  // namespace
@@ -76,7 +70,7 @@ struct ContactStage::Data {
     second_offsets.assign(n_bodies + 1, 0);
     for (const ContactKey& key : contact.keys) {
       ++first_of_body[key.body_a + 1];
-      if (!is_plane(key)) ++second_offsets[key.body_b + 1];
+      if (!key.is_plane()) ++second_offsets[key.body_b + 1];
     }
     for (std::size_t b = 0; b < n_bodies; ++b) {
       first_of_body[b + 1] += first_of_body[b];
@@ -85,7 +79,7 @@ struct ContactStage::Data {
     second_entries.resize(second_offsets.back());
     auto next = second_offsets;
     for (std::size_t i = 0; i < n; ++i) {
-      if (!is_plane(contact.keys[i])) second_entries[next[contact.keys[i].body_b]++] = static_cast<std::int64_t>(i);
+      if (!contact.keys[i].is_plane()) second_entries[next[contact.keys[i].body_b]++] = static_cast<std::int64_t>(i);
     }
     list_id = contact.list_id;
   }
@@ -104,11 +98,11 @@ struct ContactStage::Data {
     const ContactKey& key = contact.keys[i];
     const Motion motion{state.x.data(), state.v.data(), dt};
     const BodySkin& a = skins[key.body_a];
-    if (is_plane(key)) {
+    if (key.is_plane()) {
       return push_on_plane(model.contact, a, key.feature_a, model.planes[~key.body_b], state.time, motion, slip);
     }
     const BodySkin& b = skins[key.body_b];
-    if (is_edge_pair(key)) return push_edges(model.contact, a, key.feature_a, b, key.feature_b, motion, slip);
+    if (key.is_edge_pair()) return push_edges(model.contact, a, key.feature_a, b, key.feature_b, motion, slip);
     const int* first = contact.triangles.data() + contact.triangle_offsets[i];
     const int* last = contact.triangles.data() + contact.triangle_offsets[i + 1];
     return push_node(model.contact, a, key.feature_a, b, first, last, motion, slip);
@@ -182,37 +176,11 @@ void ContactStage::gather(int body, proto::Span<double> force) const {
   }
 }
 
-double ContactStage::largest_stiffness_over_mass(const State& state) const {
+std::vector<ContactRates> ContactStage::rates(const State& state, double gap) const {
   const Data& d = *data_;
-  const ContactLaw& law = d.model.contact;
-  const ContactState& contact = state.contact;
-  const double k = 1.5 * law.normal_stiffness * std::max(1.0, law.tangential_ratio);
-  std::vector<double> sums(state.x.size(), 0.0);
-  const auto add = [&](const BodySkin& skin, int node, double weight, double side) {
-    sums[skin.offset + 3 * skin.stride * node] += k * weight * side / skin.node_mass(node);
-  };
-  for (std::size_t i = 0; i < contact.keys.size(); ++i) {
-    const ContactKey& key = contact.keys[i];
-    const BodySkin& a = d.skins[key.body_a];
-    if (is_plane(key)) {
-      add(a, key.feature_a, 1.0, 1.0);
-    } else if (is_edge_pair(key)) {
-      const BodySkin& b = d.skins[key.body_b];
-      const EdgeNow ea(a, state.x.data(), key.feature_a), eb(b, state.x.data(), key.feature_b);
-      const LinePair pair = closest_on_lines(ea.x[0], ea.direction(), eb.x[0], eb.direction());
-      const double s = pair.crossing ? pair.s : 0.5, t = pair.crossing ? pair.t : 0.5;
-      const auto &na = a.shape->edges[key.feature_a].nodes, &nb = b.shape->edges[key.feature_b].nodes;
-      add(a, na[0], 1 - s, 2.0), add(a, na[1], s, 2.0), add(b, nb[0], 1 - t, 2.0), add(b, nb[1], t, 2.0);
-    } else {
-      const BodySkin& b = d.skins[key.body_b];
-      const SurfacePoint point = nearest_surface_point(b, state.x.data(), a.at(state.x.data(), key.feature_a),
-                                                       contact.triangles.data() + contact.triangle_offsets[i],
-                                                       contact.triangles.data() + contact.triangle_offsets[i + 1]);
-      add(a, key.feature_a, 1.0, 2.0);
-      for (int c = 0; c < 3; ++c) add(b, b.shape->triangles[point.triangle].nodes[c], point.weights[c], 2.0);
-    }
-  }
-  return sums.empty() ? 0.0 : *std::max_element(sums.begin(), sums.end());
+  ContactRateSums sums(d.model, d.skins, state, gap);
+  for (std::size_t i = 0; i < state.contact.keys.size(); ++i) sums.add(i);
+  return sums.result();
 }
 
 ContactReport ContactStage::report(const State& state) const {
@@ -228,7 +196,7 @@ ContactReport ContactStage::report(const State& state) const {
     report.largest_penetration = std::max(report.largest_penetration, d.forces[i].overlap);
     report.elastic_energy += d.forces[i].energy;
     const ContactKey& key = contact.keys[i];
-    if (is_plane(key)) continue;
+    if (key.is_plane()) continue;
     others[key.body_a].insert(key.body_b);
     others[key.body_b].insert(key.body_a);
   }

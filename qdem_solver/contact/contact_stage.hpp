@@ -1,6 +1,7 @@
 // Contact between the surfaces of different bodies, and with planes.
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "proto/span.hpp"
@@ -16,6 +17,12 @@ struct ContactReport {
   double coordination_number = 0.0;  ///< mean number of other bodies that a stone touches [-]
   double largest_penetration = 0.0;  ///< of the rounded surfaces [m]
   double elastic_energy = 0.0;       ///< normal and tangential springs [J]
+};
+
+/// Upper bounds of the squared angular frequency that contacts add to one body.
+struct ContactRates {
+  double particle = 0.0;  ///< largest row sum of M^-1 K over its particles [1/s2]
+  double rigid = 0.0;     ///< of its motion as a rigid body [1/s2]
 };
 
 /// Finds contacts and computes their forces. Holds scratch only; all history lives in the State.
@@ -38,9 +45,9 @@ class ContactStage {
   /// Adds the contact forces on the nodes of `body` to `force` [N], an array laid out like state.x.
   void gather(int body, proto::Span<double> force) const;
 
-  /// Upper bound of the squared angular frequency [1/s2] that contacts add to the system if all candidates of the
-  /// current list touched: the largest row sum of M^-1 K_contact. For the stability bound.
-  double largest_stiffness_over_mass(const State& state) const;
+  /// The bounds of every body if all candidates of the current list touched that are within `gap` [m] of it; without a
+  /// gap, all.
+  std::vector<ContactRates> rates(const State& state, double gap = std::numeric_limits<double>::infinity()) const;
 
   ContactReport report(const State& state) const;
 

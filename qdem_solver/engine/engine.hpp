@@ -43,8 +43,8 @@ struct Energies {
 /// the State is a snapshot, and a restored State continues with the same bytes.
 ///
 /// The Model must outlive the engine and keep its bodies, materials, contact law, pads and fixities. `gravity`,
-/// `local_damping`, `drag_per_s` and the planes' velocities are read at every step and may be changed between steps;
-/// a change of anything else needs a new engine. Results are bitwise the same for any number of threads.
+/// `local_damping`, `inertia`, `drag_per_s`, `pad_body_load` and the planes' velocities are read at every step and may be
+/// changed between steps; a change of anything else needs a new engine. Results are bitwise the same for any number of threads.
 class Engine {
  public:
   explicit Engine(const Model& model, EngineOptions options = {});
@@ -59,15 +59,15 @@ class Engine {
   /// of no use.
   void advance(State& state, double dt, std::int64_t n_steps);
 
-  /// The same with the rail foot driven. The pad forces of the state's own time level are brought to the new rail
-  /// velocity before the first step.
+  /// The same with the rail foot driven; the inertia of the pad body must be true. The pad forces of the state's own time
+  /// level are brought to the new rail velocity before the first step.
   PadSums advance(State& state, double dt, std::int64_t n_steps, const PadDrive& drive);
 
   Energies energies(const State& state) const;
   /// Largest speed of any particle [m/s].
   double largest_speed(const State& state) const;
   /// Sum over bodies of |resultant force| over the sum of |contact force| on particles, at the last step's contact
-  /// forces; components held by a fixity do not count. 0 for perfect rest, 1 for free fall (no contact).
+  /// forces; what a fixity holds does not count. 0 for perfect rest, 1 for free fall (no contact).
   double unbalanced_ratio(const State& state) const;
 
   /// Displacement (from `reference`, positions laid out like state.x) and velocity of the sleeper at the pad cells, in

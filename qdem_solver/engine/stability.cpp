@@ -81,20 +81,16 @@ double largest_eigenvalue(const Template& shape, double lambda, double mu, doubl
   return largest_eigenvalue(ScaledStiffness(shape, lambda, mu, density), 3 * shape.n_nodes());
 }
 
-Rates operator+(const Rates& p, const Rates& q) {
-  return {p.stiffness + q.stiffness, p.damping + q.damping};
-}
-
 /// Elasticity of a scaled body: stiffness over mass goes with 1/s^2, so does viscosity over mass.
 Rates scaled(const Rates& rates, double scale) {
   return {rates.stiffness / (scale * scale), rates.damping / (scale * scale)};
 }
 
-/// Largest of each rate over all bodies.
+/// Rates of every body; `rates_of` gives those of a template and material at scale 1.
 template <class RatesOf>
-Rates over_bodies(const Model& model, RatesOf rates_of) {
+std::vector<Rates> of_bodies(const Model& model, RatesOf rates_of) {
   std::map<std::pair<int, int>, Rates> known;
-  Rates largest;
+  std::vector<Rates> result;
   for (const Body& body : model.bodies) {
     const auto key = std::make_pair(body.template_id, body.material_id);
     auto found = known.find(key);
@@ -102,23 +98,25 @@ Rates over_bodies(const Model& model, RatesOf rates_of) {
       const Rates rates = rates_of(model.templates[body.template_id], model.materials[body.material_id]);
       found = known.emplace(key, rates).first;
     }
-    const Rates rates = scaled(found->second, body.scale);
-    largest.stiffness = std::max(largest.stiffness, rates.stiffness);
-    largest.damping = std::max(largest.damping, rates.damping);
+    result.push_back(scaled(found->second, body.scale));
+  }
+  return result;
+}
+
+Rates largest_of(const std::vector<Rates>& rates) {
+  Rates largest;
+  for (const Rates& r : rates) {
+    largest.stiffness = std::max(largest.stiffness, r.stiffness);
+    largest.damping = std::max(largest.damping, r.damping);
   }
   return largest;
 }
 
-/// Stiffness: the stage's row sum over every candidate, as if all touched. Dashpots are set by their ratio zeta to the
-/// features' effective mass, so n touching contacts of stiffness over mass q give a row sum 4 zeta n sqrt(q), and the
-/// stage's figure is 2 N q for N candidates: the value below covers n = sqrt(2 N) simultaneous contacts of one
-/// particle.
-Rates contact_rates(const Model& model, const State& state, const ContactStage& contact) {
-  const double stiffness = contact.largest_stiffness_over_mass(state);
-  return {stiffness, 4 * model.contact.damping_ratio * std::sqrt(stiffness)};
-}
-
 }  // namespace
+
+Rates operator+(const Rates& p, const Rates& q) {
+  return {p.stiffness + q.stiffness, p.damping + q.damping};
+}
 
 double largest_stable_step(const Rates& rates) {
   const double k = rates.stiffness, c = rates.damping;
@@ -129,6 +127,14 @@ double largest_stable_step(const Rates& rates) {
 Rates template_rates(const Template& shape, const Material& material) {
   return {largest_eigenvalue(shape, material.lambda(), material.mu(), material.density),
           largest_eigenvalue(shape, material.lame_viscosity, material.shear_viscosity, material.density)};
+}
+
+std::vector<Rates> element_rates(const Model& model) {
+  return of_bodies(model, template_rates);
+}
+
+Rates particle_contact_rates(double stiffness, double damping_ratio) {
+  return {stiffness, 4 * damping_ratio * std::sqrt(stiffness)};
 }
 
 Rates quadruple_rates(const Template& shape, const Material& material) {
@@ -167,11 +173,13 @@ Rates pad_rates(const Model& model) {
 
 StabilityReport stability(const Model& model, const State& state, const ContactStage& contact) {
   StabilityReport report;
-  report.elements = over_bodies(model, template_rates);
-  report.contacts = contact_rates(model, state, contact);
+  report.elements = largest_of(element_rates(model));
+  double stiffness = 0.0;
+  for (const ContactRates& rates : contact.rates(state)) stiffness = std::max(stiffness, rates.particle);
+  report.contacts = particle_contact_rates(stiffness, model.contact.damping_ratio);
   report.pads = pad_rates(model);
   report.largest_step = largest_stable_step(report.elements + report.contacts + report.pads);
-  report.element_step = largest_stable_step(over_bodies(model, quadruple_rates));
+  report.element_step = largest_stable_step(largest_of(of_bodies(model, quadruple_rates)));
   return report;
 }
 

@@ -13,6 +13,7 @@ struct Rates {
   double stiffness = 0.0;
   double damping = 0.0;
 };
+Rates operator+(const Rates& p, const Rates& q);
 
 /// The integrator's limit for given rates. An oscillation from step to step is an eigenvector of
 ///     dt^2/4 K + dt C = M,
@@ -34,6 +35,14 @@ StabilityReport stability(const Model& model, const State& state, const ContactS
 /// Rates of a free body of scale 1: largest eigenvalues of the assembled operators with lumped masses, with the error
 /// bound of the iteration added.
 Rates template_rates(const Template& shape, const Material& material);
+
+/// The same of every body of a model, at its scale.
+std::vector<Rates> element_rates(const Model& model);
+
+/// Rates of the contacts on a particle from ContactRates::particle. Dashpots are set by their ratio zeta to the features'
+/// effective mass, so n touching contacts of stiffness over mass q give a row sum 4 zeta n sqrt(q), and `stiffness` is
+/// 2 N q for N candidates: the damping covers n = sqrt(2 N) simultaneous contacts of one particle.
+Rates particle_contact_rates(double stiffness, double damping_ratio);
 
 /// Bound from single quadruples: omega^2 <= 4/rho (lambda + 2 mu) max sum_k |g_k|^2, scale 1.
 Rates quadruple_rates(const Template& shape, const Material& material);

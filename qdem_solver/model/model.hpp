@@ -107,6 +107,11 @@ struct PadCell {
 /// Particle components held at zero velocity (bit c of mask: component c).
 struct Fixity { int body, node; unsigned mask; };
 
+/// Inertia of a body while it is brought to rest, as multiples of its true masses: `rigid` for its motion as a rigid
+/// body, `deformation` for all other motion. Weights, stiffness and hence the state of rest are those of the true body;
+/// only the way there differs (selective mass scaling: Olovsson, Simonsson and Unosson 2005).
+struct Inertia { double rigid = 1.0, deformation = 1.0; };
+
 struct Model {
   std::vector<Material> materials;
   std::vector<Template> templates;
@@ -121,6 +126,9 @@ struct Model {
   std::vector<Fixity> fixities;
   double local_damping = 0.0;           ///< Cundall's non-viscous damping, only while relaxing [-]
   double drag_per_s = 0.0;              ///< mass-proportional drag, only while pouring [1/s]
+  Eigen::Vector3d pad_body_load{0, 0, 0};  ///< on the pad body, spread as its mass is [N]
+  std::vector<Inertia> inertia;         ///< of each body, only while relaxing: local_damping then acts on rigid motion
+                                        ///< and deformation apart. Empty: true masses, damping particle by particle
 
   /// Index of component 0 of a body's node in the state arrays; component c lies `stride(body)` values further.
   std::int64_t index(int body, int node) const {

@@ -153,17 +153,31 @@ void take_state(const Hdf5Store& file, const Model& model, State& state) {
   }
 }
 
+/// The figures of a report by name.
+template <class Report>
+auto named_values(Report& r) {
+  return std::vector<std::pair<const char*, decltype(&r.d50)>>{{"porosity_under_sleeper", &r.porosity_under_sleeper},
+                                                               {"porosity_layer", &r.porosity_layer},
+                                                               {"coordination_number", &r.coordination_number},
+                                                               {"largest_penetration_m", &r.largest_penetration},
+                                                               {"unbalanced_force_ratio", &r.unbalanced_force_ratio},
+                                                               {"kinetic_energy_j", &r.kinetic_energy},
+                                                               {"d50_m", &r.d50},
+                                                               {"elements_per_stone", &r.elements_per_stone},
+                                                               {"sleeper_settlement_m", &r.sleeper_settlement},
+                                                               {"stiffness_n_per_m", &r.stiffness},
+                                                               {"sleeper_shift_m", &r.sleeper_shift},
+                                                               {"sleeper_tilt_rad", &r.sleeper_tilt},
+                                                               {"build_wall_s", &r.build_wall_s}};
+}
+
 void put_report(Hdf5Store& file, const BedReport& r) {
   file.put("report/counts", Integers{r.stones, r.elements, r.seed});
-  file.put("report/values",
-           Reals{r.porosity_under_sleeper, r.porosity_layer, r.coordination_number, r.largest_penetration,
-                 r.unbalanced_force_ratio, r.kinetic_energy, r.d50, r.elements_per_stone, r.sleeper_settlement,
-                 r.sleeper_shift, r.sleeper_tilt, r.build_wall_s});
-  file.put("report/value_names",
-           std::vector<std::string>{"porosity_under_sleeper", "porosity_layer", "coordination_number",
-                                    "largest_penetration_m", "unbalanced_force_ratio", "kinetic_energy_j", "d50_m",
-                                    "elements_per_stone", "sleeper_settlement_m", "sleeper_shift_m", "sleeper_tilt_rad",
-                                    "build_wall_s"});
+  Reals values;
+  std::vector<std::string> names;
+  for (const auto& [name, value] : named_values(r)) names.emplace_back(name), values.push_back(*value);
+  file.put("report/values", values);
+  file.put("report/value_names", names);
   file.put("report/notes", r.notes);
   file.put("report/hash", std::vector<std::string>{r.hash});
 }
@@ -173,19 +187,8 @@ BedReport take_report(const Hdf5Store& file) {
   const Reals values = file.reals("report/values");
   BedReport r;
   r.stones = counts.at(0), r.elements = counts.at(1), r.seed = counts.at(2);
-  double* const fields[] = {&r.porosity_under_sleeper,
-                            &r.porosity_layer,
-                            &r.coordination_number,
-                            &r.largest_penetration,
-                            &r.unbalanced_force_ratio,
-                            &r.kinetic_energy,
-                            &r.d50,
-                            &r.elements_per_stone,
-                            &r.sleeper_settlement,
-                            &r.sleeper_shift,
-                            &r.sleeper_tilt,
-                            &r.build_wall_s};
-  for (std::size_t i = 0; i < std::size(fields); ++i) *fields[i] = values.at(i);
+  std::size_t i = 0;
+  for (const auto& [name, value] : named_values(r)) *value = values.at(i++);
   r.notes = file.lines("report/notes");
   r.hash = file.lines("report/hash").at(0);
   return r;

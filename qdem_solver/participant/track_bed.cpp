@@ -42,6 +42,11 @@ void TrackBed::find_step(const proto::CaseFile& file) {
   largest_step_ = std::min(largest_step_, settings_.largest_step);
 }
 
+void TrackBed::set_local_damping(double value) {
+  bed_.model.local_damping = value;
+  bed_.model.inertia.assign(value > 0 ? bed_.model.bodies.size() : 0, Inertia{});
+}
+
 void TrackBed::reset_clock() {
   bed_.state.step = 0, bed_.state.time = 0.0;
   bed_.state.contact.rebuild_time = 0.0;
@@ -56,6 +61,7 @@ std::vector<proto::Fact> TrackBed::facts() const {
   add("bed.seed", static_cast<double>(report.seed));
   add("bed.porosity", report.porosity_layer);
   add("bed.porosity_under_sleeper", report.porosity_under_sleeper);
+  add("bed.stiffness_n_per_m", report.stiffness);
   add("bed.coordination_number", report.coordination_number);
   add("bed.largest_penetration_m", report.largest_penetration);
   add("bed.unbalanced_force_ratio", report.unbalanced_force_ratio);

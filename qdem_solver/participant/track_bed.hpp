@@ -37,8 +37,8 @@ class TrackBed {
   Engine& engine() { return *engine_; }
   double largest_step() const { return largest_step_; }  ///< safety included [s]
 
-  /// Cundall's damping from now on: 0 in the march.
-  void set_local_damping(double value) { bed_.model.local_damping = value; }
+  /// Cundall's damping from now on, of rigid motion and deformation apart; 0 in the march.
+  void set_local_damping(double value);
   /// Sets step and time to 0; motion and contact history stay.
   void reset_clock();
 

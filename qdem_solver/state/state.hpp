@@ -13,6 +13,8 @@ namespace qdem {
 struct ContactKey {
   int body_a = 0, body_b = 0;         ///< a < b for edge pairs; a owns the vertex for vertex-surface pairs; b < 0: plane ~b
   int feature_a = 0, feature_b = 0;   ///< node or edge of a; edge of b, -1 for vertex-surface
+  bool is_plane() const { return body_b < 0; }
+  bool is_edge_pair() const { return feature_b >= 0; }
   friend bool operator==(const ContactKey& p, const ContactKey& q) {
     return p.body_a == q.body_a && p.body_b == q.body_b && p.feature_a == q.feature_a && p.feature_b == q.feature_b;
   }

@@ -29,6 +29,7 @@ Engine::Data::Data(const Model& the_model, EngineOptions the_options)
       kernels(cpu::kernels()),
       tasks(cpu::make_tasks(model)),
       inverse_mass(cpu::inverse_masses(model)),
+      free_motions(cpu::free_motions(model)),
       force(model.n_values, 0.0),
       slots(tasks.n_slot_values, 0.0),
       contact(model),
@@ -65,7 +66,7 @@ void Engine::Data::kick(State& state, const Batch& batch, int first, int last, d
   const std::int64_t at = batch.offset + std::int64_t{3} * first * batch.lanes;
   kernels.kick({dt,
                 {model.gravity[0], model.gravity[1], model.gravity[2]},
-                model.local_damping,
+                relaxing() ? 0.0 : model.local_damping,
                 model.drag_per_s,
                 batch.lanes,
                 last - first,
@@ -73,6 +74,44 @@ void Engine::Data::kick(State& state, const Batch& batch, int first, int last, d
                 &inverse_mass[at],
                 &state.v[at],
                 &state.a[at]});
+}
+
+void Engine::Data::scale_inertia(const State& state, const Batch& batch) {
+  const Template& shape = model.templates[batch.template_id];
+  std::array<double, lane_width> mass_factor, rigid, deformation;
+  std::array<double, 6 * lane_width> free;
+  free.fill(1.0);
+  for (int lane = 0; lane < batch.lanes; ++lane) {
+    mass_factor[lane] = model.materials[batch.material_id].density * std::pow(batch.scale[lane], 3);
+    const Inertia inertia = batch.bodies[lane] < 0 ? Inertia{} : model.inertia[batch.bodies[lane]];
+    rigid[lane] = 1 / inertia.rigid, deformation[lane] = 1 / inertia.deformation;
+    for (int i = 0; batch.bodies[lane] >= 0 && i < 6; ++i) {
+      free[i * batch.lanes + lane] = free_motions[6 * batch.bodies[lane] + i];
+    }
+  }
+  kernels.scale_inertia({{model.gravity[0], model.gravity[1], model.gravity[2]},
+                         model.local_damping,
+                         batch.lanes,
+                         shape.n_nodes(),
+                         shape.node_volumes.data(),
+                         mass_factor.data(),
+                         rigid.data(),
+                         deformation.data(),
+                         free.data(),
+                         &state.x[batch.offset],
+                         &state.v[batch.offset],
+                         &force[batch.offset]});
+}
+
+void Engine::Data::add_load(const Batch& batch) {
+  const int body = model.pad_body;
+  const Template& shape = model.shape(body);
+  const double volume = shape.volume();
+  double* out = &force[batch.offset] + model.bodies[body].lane;
+  for (int node = 0; node < shape.n_nodes(); ++node) {
+    const double share = shape.node_volumes[node] / volume;
+    for (int c = 0; c < 3; ++c) out[(3 * node + c) * batch.lanes] += share * model.pad_body_load[c];
+  }
 }
 
 void Engine::Data::run(State& state, const Task& task, double dt, Span<const double> pad_force) {
@@ -89,12 +128,13 @@ void Engine::Data::run(State& state, const Task& task, double dt, Span<const dou
   if (task.kind == TaskKind::nodes) {
     kernels.gather({shape.adjacency_offsets.data(), shape.adjacency_slots.data(), task.first, task.last,
                     &slots[tasks.slot_offsets[task.batch]], out});
-    kick(state, batch, task.first, task.last, dt);
+    if (!relaxing()) kick(state, batch, task.first, task.last, dt);
     return;
   }
   run_outer(task, pad_force);
   if (task.kind == TaskKind::outer) return;
   kernels.lane_forces({cpu::view_of(shape), material, batch.scale.data(), x, v, out});
+  if (relaxing()) scale_inertia(state, batch);
   kick(state, batch, 0, shape.n_nodes(), dt);
 }
 
@@ -103,8 +143,11 @@ void Engine::Data::run_outer(const Task& task, Span<const double> pad_force) {
   double* out = &force[batch.offset];
   std::fill(out, out + std::int64_t{3} * model.templates[batch.template_id].n_nodes() * batch.lanes, 0.0);
   for (int lane = 0; lane < batch.lanes; ++lane) {
-    if (batch.bodies[lane] >= 0) contact.gather(batch.bodies[lane], force);
-    if (batch.bodies[lane] >= 0 && batch.bodies[lane] == model.pad_body) pads.add_transposed(pad_force, force);
+    if (batch.bodies[lane] < 0) continue;
+    contact.gather(batch.bodies[lane], force);
+    if (batch.bodies[lane] != model.pad_body) continue;
+    pads.add_transposed(pad_force, force);
+    if (!model.pad_body_load.isZero()) add_load(batch);
   }
 }
 
@@ -122,6 +165,14 @@ void Engine::Data::end_step(State& state, double dt, Span<const double> pad_forc
     for (std::size_t i = 0; i < tasks.forces.size(); ++i) run(state, tasks.forces[i], dt, pad_force);
 #pragma omp for schedule(dynamic, 1)
     for (std::size_t i = 0; i < tasks.nodes.size(); ++i) run(state, tasks.nodes[i], dt, pad_force);
+    if (relaxing()) {
+#pragma omp for schedule(dynamic, 1)
+      for (std::size_t i = 0; i < tasks.singles.size(); ++i) {
+        const Batch& batch = model.batches[tasks.singles[i]];
+        scale_inertia(state, batch);
+        kick(state, batch, 0, model.templates[batch.template_id].n_nodes(), dt);
+      }
+    }
   }
 }
 

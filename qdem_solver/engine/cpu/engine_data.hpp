@@ -21,6 +21,9 @@ struct Engine::Data {
   void run(State& state, const cpu::Task& task, double dt, proto::Span<const double> pad_force);
   void run_outer(const cpu::Task& task, proto::Span<const double> pad_force);
   void kick(State& state, const Batch& batch, int first, int last, double dt);
+  bool relaxing() const { return !model.inertia.empty(); }
+  void scale_inertia(const State& state, const Batch& batch);
+  void add_load(const Batch& batch);
 
   /// Exchanges the pad forces that state.a holds for others at the same time level.
   void add_pad_change(State& state, proto::Span<const double> new_force);
@@ -35,6 +38,7 @@ struct Engine::Data {
   const cpu::Kernels& kernels;
   cpu::TaskList tasks;
   std::vector<double> inverse_mass;
+  std::vector<double> free_motions;  ///< of every body, 6 each (cpu::free_motions)
   std::vector<double> force;
   std::vector<double> slots;  ///< element forces of single bodies
   ContactStage contact;

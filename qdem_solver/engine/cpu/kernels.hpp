@@ -65,6 +65,26 @@ struct Kick {
   double* a;
 };
 
+/// Replaces the forces on the particles of a batch by those that make an undamped kick move the bodies with other
+/// inertia (see Inertia) and Cundall's damping. The acceleration a is split into a_rigid, its mass-weighted least-squares
+/// fit by the free accelerations of a rigid body, and the rest; each part is scaled, and damped against its own velocity,
+/// so that what rings inside a body does not brake it. Spin is taken to be slow: the centripetal part counts as
+/// deformation.
+struct ScaleInertia {
+  double gravity[3];
+  double local_damping;
+  int lanes;
+  int n_nodes;
+  const double* volumes;      ///< [n_nodes], lumped, scale 1
+  const double* mass_factor;  ///< [lanes], mass of a particle = this x its volume
+  const double* rigid;        ///< [lanes], 1 / Inertia::rigid
+  const double* deformation;  ///< [lanes], 1 / Inertia::deformation
+  const double* free;         ///< [6][lanes], 1 for a free translation or rotation, 0 for a held one
+  const double* x;
+  const double* v;
+  double* force;
+};
+
 /// Forces of one body gathered from element slots: force[node] += sum of its slots in ascending order.
 struct Gather {
   const int* adjacency_offsets;
@@ -81,6 +101,7 @@ struct Kernels {
   DriftResult (*drift)(const Drift&);
   void (*kick)(const Kick&);
   void (*gather)(const Gather&);
+  void (*scale_inertia)(const ScaleInertia&);
 };
 
 /// The best set that this processor runs.

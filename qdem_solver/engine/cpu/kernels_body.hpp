@@ -133,10 +133,148 @@ void gather(const Gather& job) {
   }
 }
 
+/// Values of up to eight bodies side by side.
+struct Row {
+  double at[lanes] = {};
+};
+
+/// Rigid fit of the motion of up to eight bodies: their centres, linear and angular velocity and acceleration.
+struct RigidFit {
+  Row centre[3], velocity[3], spin[3], linear[3], angular[3];
+};
+
+/// Solves the symmetric 3 x 3 system of every lane, entries xx, xy, xz, yy, yz, zz. Cramer's rule.
+inline void solve_symmetric(const Row m[6], const Row right[3], int n, Row out[3]) {
+#pragma omp simd
+  for (int l = 0; l < n; ++l) {
+    const double xx = m[0].at[l], xy = m[1].at[l], xz = m[2].at[l], yy = m[3].at[l], yz = m[4].at[l], zz = m[5].at[l];
+    const double c0 = yy * zz - yz * yz, c1 = xz * yz - xy * zz, c2 = xy * yz - xz * yy;
+    const double d0 = xx * zz - xz * xz, d1 = xy * xz - xx * yz, e0 = xx * yy - xy * xy;
+    const double scale = 1 / (xx * c0 + xy * c1 + xz * c2);
+    const double r0 = right[0].at[l], r1 = right[1].at[l], r2 = right[2].at[l];
+    out[0].at[l] = scale * (c0 * r0 + c1 * r1 + c2 * r2);
+    out[1].at[l] = scale * (c1 * r0 + d0 * r1 + d1 * r2);
+    out[2].at[l] = scale * (c2 * r0 + d1 * r1 + e0 * r2);
+  }
+}
+
+/// Takes the held rotations out of the system.
+inline void hold_rotations(const double* free, int n, Row inertia[6], Row momentum[3], Row torque[3]) {
+  constexpr int axes[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
+  for (int e = 0; e < 6; ++e) {
+    const double *row = free + axes[e][0] * n, *column = free + axes[e][1] * n;
+    for (int l = 0; l < n; ++l) {
+      inertia[e].at[l] *= row[l] * column[l];
+      if (axes[e][0] == axes[e][1]) inertia[e].at[l] += 1 - row[l];
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    for (int l = 0; l < n; ++l) momentum[c].at[l] *= free[c * n + l], torque[c].at[l] *= free[c * n + l];
+  }
+}
+
+/// Sums of r x w over the particles, added to one row.
+inline void add_moment(const double r[3], const double w[3], Row sum[3], int l) {
+  sum[0].at[l] += r[1] * w[2] - r[2] * w[1];
+  sum[1].at[l] += r[2] * w[0] - r[0] * w[2];
+  sum[2].at[l] += r[0] * w[1] - r[1] * w[0];
+}
+
+inline void fit_translation(const ScaleInertia& job, int n, RigidFit& fit) {
+  double volume = 0.0;
+  for (int node = 0; node < job.n_nodes; ++node) {
+    const double share = job.volumes[node];
+    volume += share;
+    for (int c = 0; c < 3; ++c) {
+      const int at = (3 * node + c) * n;
+#pragma omp simd
+      for (int l = 0; l < n; ++l) {
+        fit.centre[c].at[l] += share * job.x[at + l];
+        fit.velocity[c].at[l] += share * job.v[at + l];
+        fit.linear[c].at[l] += job.force[at + l];
+      }
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    for (int l = 0; l < n; ++l) {
+      const double free = job.free[c * n + l];
+      fit.centre[c].at[l] /= volume;
+      fit.velocity[c].at[l] *= free / volume;
+      fit.linear[c].at[l] = free * (fit.linear[c].at[l] / (job.mass_factor[l] * volume) + job.gravity[c]);
+    }
+  }
+}
+
+inline void fit_rotation(const ScaleInertia& job, int n, RigidFit& fit) {
+  Row inertia[6], momentum[3], torque[3];
+  for (int node = 0; node < job.n_nodes; ++node) {
+    const int at = 3 * node * n;
+#pragma omp simd
+    for (int l = 0; l < n; ++l) {
+      const double m = job.mass_factor[l] * job.volumes[node];
+      double r[3], p[3], f[3];
+      for (int c = 0; c < 3; ++c) {
+        r[c] = job.x[at + c * n + l] - fit.centre[c].at[l];
+        p[c] = m * job.v[at + c * n + l];
+        f[c] = job.force[at + c * n + l];
+      }
+      inertia[0].at[l] += m * (r[1] * r[1] + r[2] * r[2]), inertia[1].at[l] -= m * r[0] * r[1];
+      inertia[2].at[l] -= m * r[0] * r[2], inertia[3].at[l] += m * (r[0] * r[0] + r[2] * r[2]);
+      inertia[4].at[l] -= m * r[1] * r[2], inertia[5].at[l] += m * (r[0] * r[0] + r[1] * r[1]);
+      add_moment(r, p, momentum, l);
+      add_moment(r, f, torque, l);
+    }
+  }
+  hold_rotations(job.free + 3 * n, n, inertia, momentum, torque);
+  solve_symmetric(inertia, momentum, n, fit.spin);
+  solve_symmetric(inertia, torque, n, fit.angular);
+}
+
+/// Cundall's damping of one component.
+inline double damped(double acceleration, double velocity, double share) {
+  const double size = acceleration < 0 ? -acceleration : acceleration;
+  const double sign = velocity > 0 ? 1.0 : (velocity < 0 ? -1.0 : 0.0);
+  return acceleration - share * size * sign;
+}
+
+void scale_inertia(const ScaleInertia& job) {
+  const int n = job.lanes;
+  const double share = job.local_damping;
+  RigidFit fit;
+  fit_translation(job, n, fit);
+  fit_rotation(job, n, fit);
+  Row linear[3], angular[3];
+  for (int c = 0; c < 3; ++c) {
+    for (int l = 0; l < n; ++l) {
+      linear[c].at[l] = job.rigid[l] * damped(fit.linear[c].at[l], fit.velocity[c].at[l], share);
+      angular[c].at[l] = job.rigid[l] * damped(fit.angular[c].at[l], fit.spin[c].at[l], share);
+    }
+  }
+  for (int node = 0; node < job.n_nodes; ++node) {
+    const int at = 3 * node * n;
+#pragma omp simd
+    for (int l = 0; l < n; ++l) {
+      const double m = job.mass_factor[l] * job.volumes[node];
+      double r[3];
+      for (int c = 0; c < 3; ++c) r[c] = job.x[at + c * n + l] - fit.centre[c].at[l];
+      for (int c = 0; c < 3; ++c) {
+        const int i = (c + 1) % 3, k = (c + 2) % 3, here = at + c * n + l;
+        const double whole = job.force[here] / m + job.gravity[c];
+        const double stiff = fit.linear[c].at[l] + fit.angular[i].at[l] * r[k] - fit.angular[k].at[l] * r[i];
+        const double drift = fit.velocity[c].at[l] + fit.spin[i].at[l] * r[k] - fit.spin[k].at[l] * r[i];
+        const double moved = linear[c].at[l] + angular[i].at[l] * r[k] - angular[k].at[l] * r[i];
+        const double bent = job.deformation[l] * damped(whole - stiff, job.v[here] - drift, share);
+        job.force[here] = m * (moved + bent - job.gravity[c]);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 const Kernels& QDEM_KERNELS() {
-  static const Kernels table{QDEM_INSTRUCTION_SET, lane_forces, single_forces, drift, kick, gather};
+  static const Kernels table{QDEM_INSTRUCTION_SET, lane_forces, single_forces, drift, kick, gather,
+                             scale_inertia};
   return table;
 }
 

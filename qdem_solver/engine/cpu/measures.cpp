@@ -64,16 +64,15 @@ double Engine::unbalanced_ratio(const State& state) const {
   double resultants = 0.0, contacts = 0.0;
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
     data_->contact.gather(body, contact);
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Vector3d sum = model.body_mass(body) * model.gravity;
+    if (body == model.pad_body) sum += model.pad_body_load;
     for (int node = 0; node < model.shape(body).n_nodes(); ++node) {
       const Eigen::Vector3d touch = State::gather(model, contact, body, node);
-      const Eigen::Vector3d weight = model.node_mass(body, node) * model.gravity;
-      const Eigen::Vector3d free = State::gather(model, data_->inverse_mass, body, node);
-      const Eigen::Vector3d all = touch + weight + State::gather(model, pads, body, node);
-      for (int c = 0; c < 3; ++c) sum[c] += free[c] > 0 ? all[c] : 0.0;
+      sum += touch + State::gather(model, pads, body, node);
       contacts += touch.norm();
     }
-    resultants += sum.norm();
+    const double* free = &data_->free_motions[6 * body];
+    resultants += sum.cwiseProduct(Eigen::Vector3d(free[0], free[1], free[2])).norm();
   }
   return contacts > 0 ? resultants / contacts : (resultants > 0 ? 1.0 : 0.0);
 }

@@ -1,6 +1,8 @@
 #include "qdem_solver/engine/cpu/tasks.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace qdem::cpu {
 namespace {
@@ -23,6 +25,7 @@ TaskList make_tasks(const Model& model) {
       list.forces.push_back({TaskKind::outer, b});
       cut(list.forces, TaskKind::elements, b, shape.n_tets(), elements_per_task);
       cut(list.nodes, TaskKind::nodes, b, shape.n_nodes(), nodes_per_task);
+      list.singles.push_back(b);
       list.slot_offsets.push_back(list.n_slot_values);
       list.n_slot_values += std::int64_t{12} * shape.n_tets();
     } else {
@@ -58,6 +61,26 @@ std::vector<double> inverse_masses(const Model& model) {
     }
   }
   return result;
+}
+
+std::vector<double> free_motions(const Model& model) {
+  std::vector<double> free(6 * model.bodies.size(), 1.0);
+  for (const Fixity& held : model.fixities) {
+    const Template& shape = model.shape(held.body);
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (int i = 0; i < shape.n_nodes(); ++i) centre += shape.node_volumes[i] / shape.volume() * shape.nodes[i];
+    const Eigen::Vector3d arm = shape.nodes[held.node] - centre;
+    for (int c = 0; c < 3; ++c) {
+      if (!(held.mask >> c & 1u)) continue;
+      double* of_body = &free[6 * held.body];
+      of_body[c] = 0.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double moved = Eigen::Vector3d::Unit(axis).cross(arm)[c];
+        if (std::abs(moved) > 1e-9 * arm.norm()) of_body[3 + axis] = 0.0;
+      }
+    }
+  }
+  return free;
 }
 
 }  // namespace qdem::cpu

@@ -22,10 +22,11 @@ struct Task {
   int first = 0, last = 0;  ///< elements or nodes
 };
 
-/// Tasks of the two phases; between them all threads meet.
+/// Tasks of the phases; between them all threads meet.
 struct TaskList {
   std::vector<Task> forces;  ///< outer, elements and batch, longest first
   std::vector<Task> nodes;
+  std::vector<int> singles;  ///< batches of single bodies, whose kick waits for all their nodes while relaxing
   std::vector<std::int64_t> slot_offsets;  ///< per batch: of its first slot value; -1 for batches of lanes
   std::int64_t n_slot_values = 0;
 };
@@ -37,5 +38,9 @@ QuadrupleMaterial material_of(const Material& material);
 
 /// 1/m per value, 0 for held components and spare lanes; laid out like State::x.
 std::vector<double> inverse_masses(const Model& model);
+
+/// Six numbers of every body: 1 for a translation along, or a rotation about, an axis through its centre that no fixity
+/// holds, else 0. Bodies with fixities are taken to stand as their templates do.
+std::vector<double> free_motions(const Model& model);
 
 }  // namespace qdem::cpu

@@ -1,0 +1,221 @@
+// The part of a Builder that moves the scene: tamping, hardening, consolidation, rest.
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "qdem_solver/bed/builder.hpp"
+#include "qdem_solver/engine/engine.hpp"
+#include "qdem_solver/engine/relaxation.hpp"
+#include "qdem_solver/engine/stability.hpp"
+
+namespace qdem::bed {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double step_safety = 0.8;
+constexpr int touching_points = 10;       // of a stone while it may fall on others, for the step and the inertia
+constexpr int resting_points = 3;         // of a stone that rests; who touches more is made heavier
+constexpr int steps_per_fit = 50;        // inertia is fitted to the contacts anew
+constexpr int steps_per_look = 25;
+constexpr double pouring_skin = 0.08;     // candidate lists live longer while stones move [d50]
+constexpr double tamping_speed = 0.2;     // [m/s]
+constexpr double tamped_speed = 0.02;     // [m/s], below which a tamped layer is at rest
+constexpr double parting_time = 0.1;      // [s], in which stones that overlap part
+constexpr double settling_drag = 30;      // [1/s]
+constexpr double rolling_drag = 5;        // [1/s], while stones of the shoulder roll down
+constexpr double hardening_drag = 1.0;    // of the rattling frequency of a mean stone on one contact
+constexpr double heaved_share = 0.95;     // of the sleeper's weight; drag would keep a heavy sleeper down
+constexpr double settling_damping = 0.5, resting_damping = 0.7;  // Cundall's
+constexpr double share_of_limits = 0.5;   // rest is better than the case asks for
+constexpr double settling_time = 2.0;     // [s], at most
+constexpr double calm_kinetic = 2e-4;     // [J], and
+constexpr double calm_unbalanced = 2e-3;  // [-], before the bed is made harder
+constexpr int steps_at_true_masses = 500, true_steps = 4000;
+constexpr unsigned held_along_track = 1u;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+void Builder::soften(const Softness& softness) {
+  const double share = softness.young / physics_.stone.young;
+  model_.materials = {physics_.stone, physics_.sleeper};
+  for (Material& material : model_.materials) {
+    material.young *= share;
+    material.lame_viscosity *= share;  // keeps the retardation time
+    material.shear_viscosity *= share;
+  }
+  model_.contact = physics_.contact;
+  model_.contact.normal_stiffness = softness.stiffness;
+  model_.contact.friction = softness.friction;
+  if (share < 1) model_.contact.skin = pouring_skin * settings_.gradation.size_at(0.5);
+  model_.contact.damping_ratio = std::max(softness.damping_ratio, physics_.contact.damping_ratio);
+  model_.local_damping = softness.local_damping;
+  model_.drag_per_s = softness.drag;
+}
+
+void Builder::run(const Duration& duration, const Rest& rest, const Look& look) {
+  Relaxation relaxation(model_, contact_points(), step_safety);
+  Engine engine(model_);
+  relaxation.begin(engine, state_);
+  march(engine, relaxation.step(), duration, rest, [&](double elapsed) {
+    if (state_.step % steps_per_fit == 0) relaxation.fit(engine, state_);
+    return look && look(elapsed);
+  });
+  model_.inertia.clear();
+}
+
+int Builder::contact_points() const {
+  return falling_ ? touching_points : resting_points;
+}
+
+void Builder::run_with_true_masses(int least_steps, int most_steps, const Rest& rest) {
+  model_.inertia.assign(model_.bodies.size(), Inertia{});
+  Engine engine(model_);
+  engine.prepare(state_);
+  const double dt = step_safety * stability(model_, state_, engine.contacts()).largest_step;
+  march(engine, dt, {least_steps * dt, most_steps * dt}, rest, {});
+  model_.inertia.clear();
+}
+
+void Builder::march(Engine& engine, double dt, const Duration& duration, const Rest& rest, const Look& look) {
+  const auto clock = std::chrono::steady_clock::now();
+  const auto first_step = state_.step;
+  const double start = state_.time, mass = mass_of_stones();
+  while (state_.time - start < duration.most) {
+    engine.advance(state_, dt, steps_per_look);
+    if (look && look(state_.time - start)) break;
+    if (state_.time - start < duration.least) continue;
+    const double kinetic = engine.energies(state_).kinetic;
+    const bool slow = rest.speed > 0 && std::sqrt(2 * kinetic / mass) < rest.speed;
+    const bool still = rest.kinetic > 0 && kinetic < rest.kinetic && engine.unbalanced_ratio(state_) < rest.unbalanced;
+    if (slow || still) break;
+  }
+  report_.kinetic_energy = engine.energies(state_).kinetic;
+  report_.unbalanced_force_ratio = engine.unbalanced_ratio(state_);
+  const ContactReport contacts = engine.contacts().report(state_);
+  report_.coordination_number = contacts.coordination_number;
+  report_.largest_penetration = contacts.largest_penetration;
+  spdlog::info(
+      "bed: {:.3f} s in {} steps of {:.2f} us ({:.1f} s of work), kinetic energy {:.2e} J, unbalanced {:.1e}, "
+      "penetration {:.3f} mm, {} contacts of {} candidates, coordination {:.2f}, top {:.3f} m, seat {:.3f} mm",
+      state_.time - start, state_.step - first_step, 1e6 * dt, seconds_since(clock), report_.kinetic_energy,
+      report_.unbalanced_force_ratio, 1e3 * report_.largest_penetration, contacts.live, contacts.candidates,
+      contacts.coordination_number, top_of_stones(), 1e3 * seat_height());
+}
+
+double Builder::tamp(double level, double pressure) {
+  const double start = std::max(top_of_stones(), level) + physics_.contact.rounding;
+  const double area = settings_.wall() * settings_.spacing;
+  model_.planes.push_back({"tamp",
+                           {0, 0, start + tamping_speed * state_.time},
+                           -Vector3d::UnitZ(),
+                           Vector3d(0, 0, -tamping_speed),
+                           0.0,
+                           true,
+                           false});
+  drop_contacts();
+  const auto place = [this] { return model_.planes.back().point[2] + state_.time * model_.planes.back().velocity[2]; };
+  // Pressed until the level is reached or the pressure is: what remains above was too much for this porosity.
+  run({0, (start - level) / tamping_speed}, {}, [&](double) { return pressure_on(place(), area) > pressure; });
+  const double reached = std::max(place(), level);
+  model_.planes.back().velocity.setZero();
+  model_.planes.back().point[2] = reached;
+  drop_contacts();
+  run({0.02, 0.1}, {tamped_speed});
+  model_.planes.pop_back();
+  drop_contacts();
+  return reached;
+}
+
+double Builder::pressure_on(double level, double area) const {
+  double force = 0.0;
+  for (int b = 1; b < static_cast<int>(model_.bodies.size()); ++b) {
+    for (const int node : model_.shape(b).surface_nodes) {
+      const double overlap = state_.position(model_, b, node)[2] + physics_.contact.rounding - level;
+      force += model_.contact.normal_stiffness * std::max(0.0, overlap);
+    }
+  }
+  return force / area;
+}
+
+Builder::Softness Builder::at_level(int level) const {
+  const Settings& s = settings_;
+  const double share = static_cast<double>(level) / s.ramp_levels;
+  const double stiffness = s.pour_stiffness * std::pow(physics_.contact.normal_stiffness / s.pour_stiffness, share);
+  return {s.pour_young * std::pow(physics_.stone.young / s.pour_young, share),
+          stiffness,
+          physics_.contact.friction,
+          0.3,
+          settling_damping,
+          settling_drag};
+}
+
+void Builder::settle() {
+  falling_ = false;
+  hold_sleeper(held_along_track);
+  drop_contacts();
+  soften(at_level(settling_level()));
+  run({parting_time, parting_time});
+  model_.drag_per_s = rolling_drag;
+  run({0, settling_time}, {0.0, calm_unbalanced, calm_kinetic});
+}
+
+void Builder::harden() {
+  model_.pad_body_load[2] = heaved_share * sleeper_weight();
+  for (int level = settling_level() + 1; level <= settings_.ramp_levels; ++level) {
+    Softness softness = at_level(level);
+    softness.drag = hardening_drag * rattling_frequency(softness.stiffness);
+    soften(softness);
+    run_steps(settings_.ramp_steps, {});
+  }
+  model_.pad_body_load.setZero();
+}
+
+void Builder::consolidate() {
+  const Settings& s = settings_;
+  Softness real = at_level(s.ramp_levels);
+  real.local_damping = resting_damping, real.drag = 0;
+  soften(real);
+  const double start = seat_height();
+  run_steps(s.preload_steps, {});
+  for (int cycle = 0; cycle < s.preload_cycles; ++cycle) {
+    ramp_load(0, s.preload);
+    if (cycle + 1 == s.preload_cycles) {
+      run_steps(s.preload_steps, {});
+      loaded_height_ = seat_height();
+    }
+    ramp_load(s.preload, 0);
+  }
+  report_.sleeper_settlement = start - seat_height();
+}
+
+void Builder::ramp_load(double from, double to) {
+  const double time = settings_.preload_steps * relaxation_step(model_, contact_points(), step_safety);
+  run({time, time}, {}, [&](double elapsed) {
+    model_.pad_body_load[2] = -(from + (to - from) * std::min(elapsed / time, 1.0));
+    return false;
+  });
+}
+
+void Builder::come_to_rest() {
+  const Settings& s = settings_;
+  const Rest rest{0.0, share_of_limits * s.unbalanced_limit, share_of_limits * s.kinetic_limit};
+  hold_sleeper(0u);  // along the track and upright the rail holds it later; here its bed does
+  run_steps(s.rest_steps, rest);
+  model_.drag_per_s = 0;
+  run_with_true_masses(steps_at_true_masses, true_steps, rest);
+  report_.stiffness = s.preload_cycles > 0 ? s.preload / (seat_height() - loaded_height_) : 0.0;
+}
+
+void Builder::run_steps(int most, const Rest& rest) {
+  const double time = most * relaxation_step(model_, contact_points(), step_safety);
+  run({0.0, time}, rest);
+}
+
+}  // namespace qdem::bed

@@ -1,0 +1,107 @@
+#include "qdem_solver/contact/contact_rates.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "qdem_solver/contact/edge_pair.hpp"
+#include "qdem_solver/contact/surface_point.hpp"
+
+namespace qdem {
+
+using Eigen::Matrix3d, Eigen::Vector3d;
+
+ContactRateSums::ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const State& state,
+                                 double gap)
+    : skins_(skins),
+      state_(state),
+      model_(model),
+      gap_(gap),
+      // Half as much again: the force of an edge pair changes with its share too (edge_pair.hpp).
+      stiffness_(1.5 * model.contact.normal_stiffness * std::max(1.0, model.contact.tangential_ratio)),
+      particles_(state.x.size(), 0.0),
+      rates_(skins.size()) {
+  for (int b = 0; b < static_cast<int>(skins.size()); ++b) {
+    const BodySkin& skin = skins[b];
+    RigidBody body{Vector3d::Zero(), 1 / model.body_mass(b), Matrix3d::Zero()};
+    for (int i = 0; i < skin.shape->n_nodes(); ++i) {
+      body.centre += skin.node_mass(i) / model.body_mass(b) * skin.at(state.x.data(), i);
+    }
+    Matrix3d moment = Matrix3d::Zero();
+    for (int i = 0; i < skin.shape->n_nodes(); ++i) {
+      const Vector3d arm = skin.at(state.x.data(), i) - body.centre;
+      moment += skin.node_mass(i) * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
+    }
+    body.inverse_inertia = moment.inverse();
+    bodies_.push_back(body);
+  }
+}
+
+double ContactRateSums::RigidBody::mobility(const Vector3d& point) const {
+  const Vector3d r = point - centre;
+  Matrix3d cross;
+  cross << 0, -r[2], r[1], r[2], 0, -r[0], -r[1], r[0], 0;
+  return inverse_mass + (cross * inverse_inertia * cross.transpose()).norm();
+}
+
+void ContactRateSums::add_share(const Share& share, const Vector3d& point, double stiffness) {
+  const BodySkin& skin = skins_[share.body];
+  for (int i = 0; i < share.n; ++i) {
+    particles_[skin.offset + 3 * skin.stride * share.nodes[i]] +=
+        stiffness * share.weights[i] / skin.node_mass(share.nodes[i]);
+  }
+  rates_[share.body].rigid += stiffness * bodies_[share.body].mobility(point);
+}
+
+void ContactRateSums::add(std::size_t entry) {
+  const ContactState& contact = state_.contact;
+  const ContactKey& key = contact.keys[entry];
+  const double* x = state_.x.data();
+  const BodySkin& a = skins_[key.body_a];
+  Share of_a{key.body_a}, of_b{key.is_plane() ? 0 : key.body_b};
+  Vector3d point;
+  double distance = 0.0;
+  if (key.is_edge_pair()) {
+    const BodySkin& b = skins_[key.body_b];
+    const EdgeNow ea(a, x, key.feature_a), eb(b, x, key.feature_b);
+    const LinePair pair = closest_on_lines(ea.x[0], ea.direction(), eb.x[0], eb.direction());
+    const double s = pair.crossing ? pair.s : 0.5, t = pair.crossing ? pair.t : 0.5;
+    const auto &na = a.shape->edges[key.feature_a].nodes, &nb = b.shape->edges[key.feature_b].nodes;
+    of_a = {key.body_a, 2, {na[0], na[1]}, {1 - s, s}};
+    of_b = {key.body_b, 2, {nb[0], nb[1]}, {1 - t, t}};
+    point = ea.at(s);
+    distance = std::sqrt(segment_distance2(ea.x[0], ea.x[1], eb.x[0], eb.x[1])) - 2 * model_.contact.rounding;
+  } else {
+    of_a = {key.body_a, 1, {key.feature_a}, {1.0}};
+    point = a.at(x, key.feature_a);
+    if (key.is_plane()) {
+      const Plane& plane = model_.planes[~key.body_b];
+      distance = plane.normal.dot(point - plane.point - state_.time * plane.velocity) - model_.contact.rounding;
+    } else {
+      const BodySkin& b = skins_[key.body_b];
+      const SurfacePoint nearest =
+          nearest_surface_point(b, x, point, contact.triangles.data() + contact.triangle_offsets[entry],
+                                contact.triangles.data() + contact.triangle_offsets[entry + 1]);
+      const auto& corners = b.shape->triangles[nearest.triangle].nodes;
+      distance = nearest.distance - 2 * model_.contact.rounding;
+      of_b = {key.body_b, 3, corners, {nearest.weights[0], nearest.weights[1], nearest.weights[2]}};
+    }
+  }
+  if (distance > gap_) return;
+  const double sides = key.is_plane() ? 1.0 : 2.0;
+  add_share(of_a, point, sides * stiffness_);
+  add_share(of_b, point, sides * stiffness_);
+}
+
+std::vector<ContactRates> ContactRateSums::result() const {
+  std::vector<ContactRates> rates = rates_;
+  for (std::size_t b = 0; b < skins_.size(); ++b) {
+    const BodySkin& skin = skins_[b];
+    for (const int node : skin.shape->surface_nodes) {
+      rates[b].particle = std::max(rates[b].particle, particles_[skin.offset + 3 * skin.stride * node]);
+    }
+  }
+  return rates;
+}
+
+}  // namespace qdem

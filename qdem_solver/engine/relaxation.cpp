@@ -1,0 +1,82 @@
+#include "qdem_solver/engine/relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace qdem {
+namespace {
+
+/// Bounds hold for two parts of the motion one by one: each may use half of the step's budget.
+constexpr double budget = 0.5;
+constexpr double near_share = 0.1;  // of the rounding: so near is as good as touching
+constexpr int contacts_of_a_particle = 4;  // that may touch at once before any candidate is known
+
+/// How much of a step's budget rates take: dt^2/4 k + dt c <= 1 (see largest_stable_step()).
+double demand(const Rates& rates, double dt) {
+  return dt * dt / 4 * rates.stiffness + dt * rates.damping;
+}
+
+double lightest_particle(const Model& model, int body) {
+  double least = model.node_mass(body, 0);
+  for (const int node : model.shape(body).surface_nodes) least = std::min(least, model.node_mass(body, node));
+  return least;
+}
+
+/// Contact points on a body whose mobility is that of a sphere's surface, 1/m + r^2/I = 3.5/m.
+double rigid_rate(const Model& model, double mass, int n_contacts) {
+  const double stiffness = model.contact.normal_stiffness * std::max(1.0, model.contact.tangential_ratio);
+  return n_contacts * stiffness * 2 * 3.5 / mass;
+}
+
+/// Dashpots of rigid motion: c = 2 zeta sqrt(m_eff k), with the mass of a particle at most.
+Rates with_dashpots(const Model& model, double stiffness, double particle_mass) {
+  const double c_over_k = 2 * model.contact.damping_ratio * std::sqrt(particle_mass / model.contact.normal_stiffness);
+  return {stiffness, c_over_k * stiffness};
+}
+
+}  // namespace
+
+double relaxation_step(const Model& model, int n_contacts, double safety) {
+  double mass = 0.0, particle = 0.0;
+  int n = 0;
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+    if (model.bodies[b].kind != BodyKind::stone) continue;
+    mass += model.body_mass(b), particle += lightest_particle(model, b);
+    ++n;
+  }
+  const Rates rates = with_dashpots(model, rigid_rate(model, mass / n, n_contacts), particle / n);
+  const Rates doubled{rates.stiffness / budget, rates.damping / budget};
+  return safety * largest_stable_step(doubled);
+}
+
+Relaxation::Relaxation(Model& model, int n_contacts, double safety)
+    : model_(model),
+      n_contacts_(n_contacts),
+      safety_(safety),
+      step_(relaxation_step(model, n_contacts, safety)),
+      elements_(element_rates(model)),
+      pads_(pad_rates(model)) {}
+
+void Relaxation::begin(Engine& engine, State& state) {
+  engine.prepare(state);  // finds the candidates
+  fit(engine, state);
+  engine.prepare(state);
+}
+
+void Relaxation::fit(const Engine& engine, const State& state) {
+  const double dt = step_ / safety_, zeta = model_.contact.damping_ratio;
+  const auto contacts = engine.contacts().rates(state, near_share * model_.contact.rounding);
+  model_.inertia.resize(model_.bodies.size());
+  for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
+    const double particle = lightest_particle(model_, b);
+    const double touched = 2 * contacts_of_a_particle * model_.contact.normal_stiffness / particle;
+    const double pushed = std::max(contacts[b].rigid, rigid_rate(model_, model_.body_mass(b), n_contacts_));
+    Rates deformation = elements_[b] + particle_contact_rates(std::max(contacts[b].particle, touched), zeta);
+    Rates rigid = with_dashpots(model_, pushed, particle);
+    if (b == model_.pad_body) deformation = deformation + pads_, rigid = rigid + pads_;
+    model_.inertia[b].deformation = std::max(1.0, demand(deformation, dt) / budget);
+    model_.inertia[b].rigid = std::max(1.0, demand(rigid, dt) / budget);
+  }
+}
+
+}  // namespace qdem
