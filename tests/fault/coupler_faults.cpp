@@ -144,7 +144,7 @@ TEST(CouplerFault, AnotherProtocolVersionIsTurnedAway) {
   EXPECT_EQ(run.run().value_or(-1), code(proto::ExitCode::protocol));
   EXPECT_TRUE(contains(run.message(), "fem (")) << run.message();
   EXPECT_TRUE(contains(run.message(), "version")) << run.message();
-  EXPECT_TRUE(contains(run.message(), "2.0") && contains(run.message(), "1.0")) << run.message();
+  EXPECT_TRUE(contains(run.message(), "2.1") && contains(run.message(), "1.1")) << run.message();
   EXPECT_TRUE(all_gone(run, 0.1));
 }
 
