@@ -77,6 +77,10 @@ proto::FieldSet QdemParticipant::advance(const proto::Advance& request, proto::P
   return values(bed_->engine().advance(bed_->state(), dt, request.sub_cycles, {begin, end}));
 }
 
+std::optional<double> QdemParticipant::residual() {
+  return bed_->engine().unbalanced_ratio(bed_->state());
+}
+
 bool QdemParticipant::output_is_due(std::int64_t window) const {
   if (output_interval_ <= 0) return false;
   // A step of output belongs to the window whose end reaches the next multiple of the interval.

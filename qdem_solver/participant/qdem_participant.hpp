@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ class QdemParticipant : public proto::Participant {
   proto::Interface describe() override;
   proto::Configured configure(const proto::Configure& request) override;
   proto::FieldSet advance(const proto::Advance& request, proto::Progress& progress) override;
+  /// Engine::unbalanced_ratio() of the window's last step.
+  std::optional<double> residual() override;
   void commit(const proto::Commit& request) override;
   void rollback(const proto::Rollback& request) override;
   proto::FieldSet start() override;
