@@ -1,7 +1,10 @@
 // One side of the split oscillator under a constant load, with an initialise phase: `--side rail` or `--side sleeper`.
-// Damps artificially by taking 5 % of the velocity in each window of that phase.
+// Damps artificially by taking 5 % of the velocity in each window of that phase. `--residual none` keeps its residual
+// to itself, `--residual negative` gives one that cannot be.
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "proto/case/rail_seat.hpp"
@@ -37,7 +40,8 @@ proto::FieldSet narrowed(const proto::FieldSet& data) {
 template <class Model>
 class Relaxing : public proto::Participant {
  public:
-  Relaxing(std::string name, proto::RailSeat seat) : name_(std::move(name)), seat_(std::move(seat)) {}
+  Relaxing(std::string name, proto::RailSeat seat, std::string residual)
+      : name_(std::move(name)), seat_(std::move(seat)), given_residual_(std::move(residual)) {}
   std::string name() const override { return name_; }
   proto::Capabilities capabilities() const override { return {true, false, false, true}; }
   proto::Interface describe() override;
@@ -45,10 +49,16 @@ class Relaxing : public proto::Participant {
   proto::FieldSet advance(const proto::Advance& request, proto::Progress& progress) override {
     auto narrow = request;
     narrow.data = narrowed(request.data);
+    const double before = model_.velocity();
     const auto result = model_.advance(narrow);
+    inertia_force_ = mass() * std::abs(model_.velocity() - before) / request.window_s;
     if (request.phase == proto::Phase::initialise) model_.damp(kept_velocity);
     progress.bump();
     return widened(result.data);
+  }
+  std::optional<double> residual() override {
+    if (given_residual_ == "none") return std::nullopt;
+    return given_residual_ == "negative" ? -0.5 : inertia_force_ / std::abs(load_n);
   }
   void commit(const proto::Commit&) override {}
   proto::FieldSet start() override {
@@ -61,8 +71,15 @@ class Relaxing : public proto::Participant {
   std::vector<proto::Fact> finish() override { return {}; }
 
  private:
+  static double mass() {
+    const auto o = loaded_oscillator();
+    return std::is_same_v<Model, tests::RailModel> ? o.rail_mass : o.sleeper_mass;
+  }
+
   std::string name_;
   proto::RailSeat seat_;
+  std::string given_residual_;
+  double inertia_force_ = 0.0;
   Model model_{loaded_oscillator()};
 };
 
@@ -106,11 +123,12 @@ int main(int argc, char** argv) {
     const auto seat = proto::read_rail_seats(file).front();
     const auto options = proto::read_session_options(option(argc, argv, "--endpoint"), file.hash());
     const auto name = option(argc, argv, "--name");
+    const auto residual = option(argc, argv, "--residual");
     std::unique_ptr<proto::Participant> side;
     if (option(argc, argv, "--side") == "rail")
-      side = std::make_unique<Relaxing<tests::RailModel>>(name, seat);
+      side = std::make_unique<Relaxing<tests::RailModel>>(name, seat, residual);
     else
-      side = std::make_unique<Relaxing<tests::SleeperModel>>(name, seat);
+      side = std::make_unique<Relaxing<tests::SleeperModel>>(name, seat, residual);
     proto::serve(*side, options);
     return 0;
   } catch (const proto::Error& error) {

@@ -64,13 +64,15 @@ TEST(Summary, PutsFactsUnderTheirDottedKeys) {
 TEST(Summary, AFailureIsTold) {
   coupler::Summary summary;
   summary.status = "failed";
-  summary.initialise_change = std::numeric_limits<double>::infinity();
+  summary.rest = {std::numeric_limits<double>::infinity(), 4e-3, 2e-3};
   summary.failure = {"fem: \"lost\"", "fem", 69};
   const auto json = nlohmann::json::parse(coupler::summary_text(summary));
   EXPECT_EQ(json["failure"]["message"], "fem: \"lost\"");
   EXPECT_EQ(json["failure"]["culprit"], "fem");
   EXPECT_EQ(json["failure"]["exit_code"], 69);
   EXPECT_TRUE(json["initialise"]["change_relative"].is_null());
+  EXPECT_EQ(json["initialise"]["qdem_residual"], 4e-3);
+  EXPECT_EQ(json["initialise"]["fem_residual"], 2e-3);
 }
 
 TEST(RunFolder, IsLockedForItsLife) {
