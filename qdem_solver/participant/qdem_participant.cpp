@@ -7,6 +7,7 @@
 
 #include "proto/case/coupling.hpp"
 #include "proto/error.hpp"
+#include "proto/result/provenance.hpp"
 #include "qdem_solver/engine/pads.hpp"
 #include "qdem_solver/participant/seat_registration.hpp"
 
@@ -21,6 +22,10 @@ QdemParticipant::QdemParticipant(proto::CaseFile file, BedSource source, std::st
 }
 
 QdemParticipant::~QdemParticipant() = default;
+
+std::string QdemParticipant::build_id() const {
+  return "qdem_solver " + proto::project_version();
+}
 
 proto::Capabilities QdemParticipant::capabilities() const {
   proto::Capabilities capabilities;

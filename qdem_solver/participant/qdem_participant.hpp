@@ -22,6 +22,7 @@ class QdemParticipant : public proto::Participant {
   QdemParticipant(proto::CaseFile file, BedSource source, std::string name, std::string out);
   ~QdemParticipant() override;
 
+  std::string build_id() const override;
   std::string name() const override { return name_; }
   proto::Capabilities capabilities() const override;
   void watch(proto::Progress& progress) override { progress_ = &progress; }

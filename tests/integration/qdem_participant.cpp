@@ -85,6 +85,7 @@ class Driver {
 
 TEST(QdemParticipant, RegistersAnInterfaceTheCouplerAccepts) {
   Driver driver;
+  EXPECT_EQ(driver.participant_.build_id().find("qdem_solver "), 0u);
   const auto seats = proto::read_rail_seats(driver.file_);
   EXPECT_NO_THROW(coupler::check_interface("qdem", driver.interface_, seats));
   auto wrong = driver.interface_;
