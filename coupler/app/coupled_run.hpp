@@ -12,6 +12,7 @@
 #include "coupler/launch/children.hpp"
 #include "coupler/record/coupling_record.hpp"
 #include "coupler/record/run_folder.hpp"
+#include "coupler/record/socket_folder.hpp"
 #include "coupler/record/summary.hpp"
 #include "coupler/scheme/audit.hpp"
 #include "coupler/scheme/window_scheme.hpp"
