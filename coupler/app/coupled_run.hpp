@@ -44,6 +44,8 @@ class CoupledRun {
   void abandon(int code, const std::string& text) noexcept;
 
   int stop_signal() const { return children_.stop_signal(); }
+  /// What it is doing or did last: "set-up", "window 37".
+  const std::string& stage() const { return supervisor_.stage(); }
 
  private:
   proto::Configured configure(const std::string& name, const proto::Configure& request);

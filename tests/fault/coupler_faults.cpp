@@ -82,12 +82,28 @@ TEST(CouplerFault, AnInterruptedRunEndsCleanly) {
   kill(run.pid(), SIGINT);
   EXPECT_EQ(run.wait(5.0).value_or(-1), 128 + SIGINT) << run.message();
   EXPECT_TRUE(all_gone(run, 0.1));
+  EXPECT_TRUE(contains(run.message(), "coupler: stopped by signal 2 (Interrupt) - window ")) << run.message();
   const auto summary = run.summary();
   EXPECT_EQ(summary["status"], "interrupted");
   EXPECT_EQ(summary["failure"]["culprit"], "user");
   EXPECT_TRUE(summary["oscillator"]["implicit"].contains("x")) << "the participants did not take part in the end";
   const proto::ResultReader record(run.out() + "/coupling.h5");
   EXPECT_EQ(record.n_committed(), summary["windows"].get<std::uint64_t>() + 1);
+}
+
+TEST(CouplerFault, ARunInterruptedBeforeTheFirstWindowSaysWhereAndPrintsNoTable) {
+  auto variant = endless();
+  variant.fem_command = R"(["sh", "-c", "sleep 1000"])";
+  CoupledRun run(variant.text());
+  run.start();
+  ASSERT_TRUE(tests::becomes_true([&] { return run.participant("fem") > 0; }, 5.0));
+  kill(run.pid(), SIGTERM);
+  EXPECT_EQ(run.wait(5.0).value_or(-1), 128 + SIGTERM) << run.message();
+  EXPECT_TRUE(all_gone(run, 0.1));
+  EXPECT_TRUE(contains(run.message(), "coupler: stopped by signal 15 (Terminated) - start-up")) << run.message();
+  EXPECT_TRUE(contains(run.table(), "no window was run")) << run.table();
+  EXPECT_FALSE(contains(run.table(), "wall time")) << run.table();
+  EXPECT_EQ(run.summary()["status"], "interrupted");
 }
 
 TEST(CouplerFault, AFrozenParticipantIsNamed) {
