@@ -1,4 +1,4 @@
-// Runs of the split oscillator through `coupler run`: three real processes.
+// Runs through `coupler run`: three real processes. The split oscillator as a case for them.
 #pragma once
 
 #include <sys/wait.h>
@@ -96,10 +96,15 @@ class CoupledRun {
     return found ? std::stoi(match[1]) : 0;
   }
 
-  /// True once windows are being run.
-  bool await_march() const {
-    return becomes_true([&] { return log().find("marching") != std::string::npos; }, 20.0);
+  /// True once the log holds `part`.
+  bool await_log(const std::string& part, double limit_s = 20.0) const {
+    return becomes_true([&] { return log().find(part) != std::string::npos; }, limit_s);
   }
+  /// True once windows are being run.
+  bool await_march() const { return await_log("marching"); }
+
+  /// Processes that the run left: those whose command line names its folder.
+  int n_processes() const { return count_processes(folder_.path()); }
 
  private:
   TemporaryFolder folder_;
