@@ -12,7 +12,7 @@ target_link_libraries(wrong_version_participant PRIVATE proto::participant proto
 set_target_properties(wrong_version_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
 house_test(coupler_faults_test fault SOURCES fault/coupler_faults.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 240)
-add_dependencies(coupler_faults_test coupler oscillator_participant wrong_version_participant)
+add_dependencies(coupler_faults_test coupler oscillator_participant relaxing_participant wrong_version_participant)
 add_executable(relaxing_participant support/relaxing_participant.cpp)
 target_link_libraries(relaxing_participant PRIVATE proto::participant coupler::scheme house::options)
 set_target_properties(relaxing_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)

@@ -9,16 +9,11 @@ namespace {
 /// Rail on 1 N/m with a load of -13.5 N, pad 10 N/m, sleeper on 4 N/m: f = load / (1 + kA (1/kp + 1/kB)).
 constexpr double rest_force = -10.0, rest_sleeper = -2.5, rest_rail = -3.5;
 
-std::string command(const std::string& side, const std::string& residual = "own") {
-  return "[\"" + tests::bin_folder + "/../test_bin/relaxing_participant\", \"--side\", \"" + side +
-         "\", \"--residual\", \"" + residual + "\"]";
-}
-
 tests::OscillatorCase relaxing(const std::string& scheme, int max_windows) {
   tests::OscillatorCase variant;
   variant.scheme = scheme;
-  variant.qdem_command = command("sleeper");
-  variant.fem_command = command("rail");
+  variant.qdem_command = tests::relaxing_command("sleeper");
+  variant.fem_command = tests::relaxing_command("rail");
   variant.more_coupling =
       "[coupling.initialise]\nmin_windows = 30\ncheck_windows = 40\ntolerance = 1e-3\nmax_windows = " +
       std::to_string(max_windows);
@@ -81,14 +76,14 @@ TEST(InitialiseFailure, AResidualAboveItsLimitIsNoRest) {
 }
 
 TEST(InitialiseFailure, WhoOffersToInitialiseOwesAResidual) {
-  for (const auto& [residual, told] :
-       {std::pair("none", "fem gave no residual"), std::pair("negative", "fem gave the residual -0.5")}) {
+  for (const auto& [fault, told] : {std::pair("no_residual", "fem gave no residual"),
+                                    std::pair("negative_residual", "fem gave the residual -0.5")}) {
     auto variant = relaxing("R1", 1000);
-    variant.fem_command = command("rail", residual);
+    variant.fem_command = tests::relaxing_command("rail", fault);
     tests::CoupledRun run(variant.text());
-    EXPECT_EQ(run.run().value_or(-1), static_cast<int>(proto::ExitCode::protocol)) << residual;
+    EXPECT_EQ(run.run().value_or(-1), static_cast<int>(proto::ExitCode::protocol)) << fault;
     EXPECT_TRUE(tests::contains(run.message(), told)) << run.message();
-    EXPECT_EQ(run.summary()["failure"]["culprit"], "fem") << residual;
+    EXPECT_EQ(run.summary()["failure"]["culprit"], "fem") << fault;
   }
 }
 

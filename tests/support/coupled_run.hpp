@@ -16,6 +16,12 @@ namespace tests {
 
 inline const std::string bin_folder = HOUSE_BIN_DIR;
 
+/// Command of tests/support/relaxing_participant.cpp as a case has it.
+inline std::string relaxing_command(const std::string& side, const std::string& fault = "none") {
+  return "[\"" + bin_folder + "/../test_bin/relaxing_participant\", \"--side\", \"" + side + "\", \"--fault\", \"" +
+         fault + "\"]";
+}
+
 /// A variant of the case split_oscillator. The texts are inserted as they are.
 struct OscillatorCase {
   std::string scheme = "R1";
