@@ -39,6 +39,9 @@ Initialise read_initialise(const Section& section) {
   result.qdem_residual_limit = section.number_or("qdem_residual_limit", result.qdem_residual_limit, Range::positive());
   result.fem_residual_limit = section.number_or("fem_residual_limit", result.fem_residual_limit, Range::positive());
   if (result.min_windows > result.max_windows) section.fail("min_windows", "min_windows is greater than max_windows");
+  if (result.max_windows > 0 && result.max_windows <= result.check_windows)
+    section.fail("max_windows", "rest is judged over the last " + std::to_string(result.check_windows) + " windows",
+                 "allow more than check_windows");
   return result;
 }
 

@@ -121,6 +121,10 @@ TEST(Coupling, bad_values_are_refused) {
             "the command is empty - case.toml:3:16: coupling.qdem_command - give the program and its first arguments");
   EXPECT_EQ(refusal("duration_s = 1\n[coupling.initialise]\nmin_windows = 5\nmax_windows = 4\n"),
             "min_windows is greater than max_windows - case.toml:4:15: coupling.initialise.min_windows");
+  EXPECT_EQ(
+      refusal("duration_s = 1\n[coupling.initialise]\nmax_windows = 40\n"),
+      "rest is judged over the last 40 windows - case.toml:4:15: coupling.initialise.max_windows - allow more than "
+      "check_windows");
   EXPECT_EQ(refusal("duration_s = 1\n[coupling.initialise]\ntolerence = 5\n"),
             "unknown key - case.toml:4:1: coupling.initialise.tolerence - did you mean 'tolerance'?");
 }
