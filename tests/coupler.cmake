@@ -31,8 +31,12 @@ house_test(wheel_passage_test integration SOURCES integration/wheel_passage.cpp
 add_dependencies(wheel_passage_test coupler qdem_solver fem_solver)
 set_tests_properties(wheel_passage_test PROPERTIES RUN_SERIAL TRUE)
 
-# Faults of the real solvers, on a bed of their own that the first test builds.
+# Faults of the real solvers, on a small bed that the first test builds.
 house_test(solver_kills_test fault SOURCES fault/solver_kills.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 300)
-add_dependencies(solver_kills_test coupler qdem_solver fem_solver oscillator_participant)
-set_tests_properties(solver_kills_test PROPERTIES RUN_SERIAL TRUE)
+house_test(solver_bad_input_test fault SOURCES fault/solver_bad_input.cpp
+           LIBRARIES qdem::participant qdem::bed nlohmann_json::nlohmann_json TIMEOUT 300)
+foreach(test solver_kills_test solver_bad_input_test)
+  add_dependencies(${test} coupler qdem_solver fem_solver oscillator_participant)
+  set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE)
+endforeach()
