@@ -12,7 +12,7 @@ target_link_libraries(wrong_version_participant PRIVATE proto::participant proto
 set_target_properties(wrong_version_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
 house_test(coupler_faults_test fault SOURCES fault/coupler_faults.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 240)
-add_dependencies(coupler_faults_test coupler oscillator_participant wrong_version_participant)
+add_dependencies(coupler_faults_test coupler oscillator_participant relaxing_participant wrong_version_participant)
 add_executable(relaxing_participant support/relaxing_participant.cpp)
 target_link_libraries(relaxing_participant PRIVATE proto::participant coupler::scheme house::options)
 set_target_properties(relaxing_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
@@ -30,3 +30,13 @@ house_test(wheel_passage_test integration SOURCES integration/wheel_passage.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 1500)
 add_dependencies(wheel_passage_test coupler qdem_solver fem_solver)
 set_tests_properties(wheel_passage_test PROPERTIES RUN_SERIAL TRUE)
+
+# Faults of the real solvers, on a small bed that the first test builds.
+house_test(solver_kills_test fault SOURCES fault/solver_kills.cpp
+           LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 300)
+house_test(solver_bad_input_test fault SOURCES fault/solver_bad_input.cpp
+           LIBRARIES qdem::participant qdem::bed nlohmann_json::nlohmann_json TIMEOUT 300)
+foreach(test solver_kills_test solver_bad_input_test)
+  add_dependencies(${test} coupler qdem_solver fem_solver oscillator_participant)
+  set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE)
+endforeach()

@@ -58,7 +58,7 @@ proto::Configure configure_request(const CaseInput& input, const std::string& ou
 
 /// What the case asks for must have been offered.
 void check_capabilities(const std::string& name, const proto::Capabilities& offered, const proto::Coupling& coupling) {
-  if (coupling.initialise_max_windows > 0 && !offered.initialise)
+  if (coupling.initialise.max_windows > 0 && !offered.initialise)
     throw ParticipantError(name, proto::ExitCode::config, name + " does not offer the initialise phase", "set-up",
                            "remove [coupling.initialise] from the case");
   if (coupling.scheme == proto::Scheme::robin_explicit && name == "fem" && !offered.robin)
@@ -146,32 +146,32 @@ void CoupledRun::account(const WindowRecord& record) {
 }
 
 void CoupledRun::initialise() {
-  const auto& coupling = input_.coupling;
-  if (coupling.initialise_max_windows == 0) return;
-  RestWatch watch(coupling.initialise_min_windows, coupling.initialise_check_windows, coupling.initialise_tolerance,
-                  coupling.initialise_force_floor);
-  Progress progress("relaxing", coupling.initialise_max_windows, coupling.window_s);
+  const auto& limits = input_.coupling.initialise;
+  if (limits.max_windows == 0) return;
+  RestWatch watch(limits);
+  Progress progress("relaxing", limits.max_windows, input_.coupling.window_s);
   bool at_rest = false;
-  for (int n = 0; !at_rest && n < coupling.initialise_max_windows; ++n) {
+  for (int n = 0; !at_rest && n < limits.max_windows; ++n) {
     supervisor_.set_stage(fmt::format("initialise window {}", n));
     const auto record = scheme_->advance(proto::Phase::initialise, n, {fem_, qdem_});
     fem_.commit({n});
     qdem_.commit({n});
     account(record);
-    const auto forces = seat_forces(record, input_.seats, coupling.window_s);
-    at_rest = watch.add(forces);
+    const auto forces = seat_forces(record, input_.seats, input_.coupling.window_s);
+    at_rest = watch.add({forces, record.explicit_residual, record.implicit_residual});
     summary_.initialise_windows = n + 1;
-    summary_.initialise_change = watch.change();
-    progress.update(n + 1, fmt::format("seat force {:.1f} N, changing by {:.1e}", forces.front(), watch.change()));
+    summary_.rest = watch.figures();
+    progress.update(
+        n + 1, fmt::format("seat force {:.1f} N, changing by {:.1e}, residuals {:.1e} (qdem) {:.1e} (fem)",
+                           forces.front(), summary_.rest.change, record.explicit_residual, record.implicit_residual));
   }
   if (!at_rest)
     throw proto::Error(proto::ExitCode::numerics,
-                       fmt::format("the coupled system did not come to rest: over the last {} of {} windows the seat "
-                                   "force still changed by {:.2e} of itself, {:.2e} is wanted",
-                                   coupling.initialise_check_windows, coupling.initialise_max_windows, watch.change(),
-                                   coupling.initialise_tolerance),
-                       "initialise", "raise coupling.initialise.max_windows");
-  log_.info("at rest after {} windows, the seat force changing by {:.2e}", summary_.initialise_windows, watch.change());
+                       fmt::format("the coupled system did not come to rest in {} windows; over the last {}: {}",
+                                   limits.max_windows, limits.check_windows, watch.text()),
+                       "initialise",
+                       "raise coupling.initialise.max_windows, or the limit that is not met if it asks too much");
+  log_.info("at rest after {} windows: {}", summary_.initialise_windows, watch.text());
 }
 
 void CoupledRun::take_initial_values() {

@@ -12,6 +12,7 @@
 #include "coupler/launch/children.hpp"
 #include "coupler/record/coupling_record.hpp"
 #include "coupler/record/run_folder.hpp"
+#include "coupler/record/socket_folder.hpp"
 #include "coupler/record/summary.hpp"
 #include "coupler/scheme/audit.hpp"
 #include "coupler/scheme/window_scheme.hpp"
@@ -43,6 +44,8 @@ class CoupledRun {
   void abandon(int code, const std::string& text) noexcept;
 
   int stop_signal() const { return children_.stop_signal(); }
+  /// What it is doing or did last: "set-up", "window 37".
+  const std::string& stage() const { return supervisor_.stage(); }
 
  private:
   proto::Configured configure(const std::string& name, const proto::Configure& request);

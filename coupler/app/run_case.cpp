@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/sinks/basic_file_sink.h>
+#include <string.h>
 
 #include <cstdio>
 
@@ -38,37 +39,40 @@ Summary blank_summary(const CaseInput& input) {
   return summary;
 }
 
+Failure stopped_by_user(int signal, const std::string& stage) {
+  return {fmt::format("stopped by signal {} ({}) - {}", signal, strsignal(signal), stage), "user",
+          interrupted_base + signal};
+}
+
 /// The whole run; fills the summary. Returns the exit code, throws what ended it early.
 int carry_out(CoupledRun& run, Summary& summary, int n_threads) {
   run.start(n_threads);
   run.set_up();
   run.initialise();
   const bool complete = run.march();
+  if (!complete) summary.failure = stopped_by_user(run.stop_signal(), run.stage());
   run.finish();
   summary.status = complete ? "ok" : "interrupted";
-  if (complete) return 0;
-  summary.failure = {"stopped by signal " + std::to_string(run.stop_signal()), "user",
-                     interrupted_base + run.stop_signal()};
-  return summary.failure.exit_code;
+  return complete ? 0 : summary.failure.exit_code;
 }
 
 int run_guarded(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary, int n_threads) {
   CoupledRun run(input, folder, log, summary);
-  const auto give_up = [&](const std::string& culprit, int code, const std::string& text) {
-    summary.failure = {text, culprit, code};
-    run.abandon(code, text);
+  const auto give_up = [&](const Failure& failure) {
+    summary.failure = failure;
+    run.abandon(failure.exit_code, failure.message);
   };
   try {
     return carry_out(run, summary, n_threads);
   } catch (const Interrupted& stop) {
-    give_up("user", interrupted_base + stop.signal(), "stopped by signal " + std::to_string(stop.signal()));
+    give_up(stopped_by_user(stop.signal(), run.stage()));
     summary.status = "interrupted";
     return summary.failure.exit_code;
   } catch (const ParticipantError& error) {
-    give_up(error.participant(), static_cast<int>(error.code()), error.what());
+    give_up({error.what(), error.participant(), static_cast<int>(error.code())});
     throw;
   } catch (const proto::Error& error) {
-    give_up("coupler", static_cast<int>(error.code()), error.what());
+    give_up({error.what(), "coupler", static_cast<int>(error.code())});
     throw;
   }
 }
@@ -91,7 +95,14 @@ int run_case(const RunOptions& options) {
     const int code = run_guarded(input, folder, log.logger(), summary, options.n_threads);
     write_summary();
     log.logger().info("{}: {} windows", summary.status, summary.n_windows);
-    fmt::print("{}", run_table(summary, folder.path()));
+    if (code != 0) {
+      log.logger().warn("{}", summary.failure.message);
+      fmt::print(stderr, "coupler: {}\n", summary.failure.message);
+    }
+    if (summary.n_windows > 0)
+      fmt::print("{}", run_table(summary, folder.path()));
+    else
+      fmt::print("no window was run; logs in {}\n", folder.path());
     return code;
   } catch (const proto::Error& error) {
     log.logger().error("{}", error.what());

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 
@@ -55,19 +54,6 @@ RunFolder::RunFolder(const std::string& out, const std::string& case_name)
 
 RunFolder::~RunFolder() {
   close(lock_);
-}
-
-SocketFolder::SocketFolder() {
-  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
-  const bool usable = runtime && *runtime && access(runtime, W_OK) == 0 && strlen(runtime) < 60;
-  path_ = std::string(usable ? runtime : "/tmp") + "/qdem-fem-XXXXXX";
-  if (!mkdtemp(path_.data()))
-    fail(std::string("cannot create a folder for the socket (") + strerror(errno) + ")", path_);
-}
-
-SocketFolder::~SocketFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
 }
 
 }  // namespace coupler

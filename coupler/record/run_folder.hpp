@@ -1,4 +1,4 @@
-// The folder that a run writes to, and the short-lived one its socket lives in.
+// The folder that a run writes to.
 #pragma once
 
 #include <string>
@@ -21,21 +21,6 @@ class RunFolder {
  private:
   std::string path_;
   int lock_ = -1;
-};
-
-/// A fresh folder of mode 0700 under $XDG_RUNTIME_DIR or /tmp (short: ipc paths end at 107 bytes), removed with its
-/// content at the end of the object's life.
-class SocketFolder {
- public:
-  SocketFolder();  ///< throws proto::Error (cannot_create)
-  ~SocketFolder();
-  SocketFolder(const SocketFolder&) = delete;
-  SocketFolder& operator=(const SocketFolder&) = delete;
-
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
 };
 
 }  // namespace coupler

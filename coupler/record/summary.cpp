@@ -59,7 +59,10 @@ std::string summary_text(const Summary& s) {
   root["window_s"] = s.window_s;
   root["sub_cycles"] = s.sub_cycles;
   root["largest_step_s"] = s.largest_step_s > 0.0 ? Json(s.largest_step_s) : Json(nullptr);
-  root["initialise"] = {{"windows", s.initialise_windows}, {"change_relative", s.initialise_change}};
+  root["initialise"] = {{"windows", s.initialise_windows},
+                        {"change_relative", s.rest.change},
+                        {"qdem_residual", s.rest.qdem_residual},
+                        {"fem_residual", s.rest.fem_residual}};
   root["interface"] = {{"energy_defect_relative", s.energy_defect_relative},
                        {"momentum_defect_relative", s.momentum_defect_relative}};
   root["wall_s"] = {{"total", s.wall.total}, {"start_up", s.wall.start_up}, {"qdem", s.wall.qdem},

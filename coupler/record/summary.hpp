@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupler/record/figures.hpp"
+#include "coupler/scheme/rest_watch.hpp"
 #include "proto/wire/messages.hpp"
 
 namespace coupler {
@@ -26,7 +27,7 @@ struct Summary {
   std::uint32_t sub_cycles = 0;
   double largest_step_s = 0.0;  ///< 0: qdem named none
   int initialise_windows = 0;
-  double initialise_change = 0.0;  ///< relative change of the seat force at its end
+  RestFigures rest;  ///< at its end
   double energy_defect_relative = 0.0, momentum_defect_relative = 0.0;
   WallTime wall;
   std::vector<SeatFigures> seats;

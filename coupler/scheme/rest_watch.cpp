@@ -1,35 +1,54 @@
 #include "coupler/scheme/rest_watch.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace coupler {
+namespace {
 
-RestWatch::RestWatch(int min_windows, int check_windows, double tolerance, double force_floor)
-    : min_windows_(static_cast<std::size_t>(std::max(min_windows, 0))),
-      check_windows_(static_cast<std::size_t>(std::max(check_windows, 1))),
-      tolerance_(tolerance),
-      force_floor_(force_floor),
-      change_(std::numeric_limits<double>::infinity()) {}
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
-bool RestWatch::add(const std::vector<double>& seat_force) {
-  ++n_windows_;
-  history_.push_back(seat_force);
-  if (history_.size() <= check_windows_) return false;
-  if (history_.size() > check_windows_ + 1) history_.pop_front();
-  change_ = 0.0;
-  for (std::size_t s = 0; s < seat_force.size(); ++s) {
-    double lowest = seat_force[s], highest = seat_force[s];
-    for (const auto& forces : history_) {
-      lowest = std::min(lowest, forces[s]);
-      highest = std::max(highest, forces[s]);
-    }
-    const double band = highest - lowest, scale = std::max(std::abs(seat_force[s]), force_floor_);
-    // A seat that carries nothing at all is at rest; one that swings about nothing is not.
-    if (band > 0.0) change_ = std::max(change_, scale > 0.0 ? band / scale : std::numeric_limits<double>::infinity());
+/// Width of the band of one seat's force over its scale.
+double relative_band(const std::deque<RestSample>& history, std::size_t seat, double force_floor) {
+  const double last = history.back().seat_force[seat];
+  double lowest = last, highest = last;
+  for (const auto& sample : history) {
+    lowest = std::min(lowest, sample.seat_force[seat]);
+    highest = std::max(highest, sample.seat_force[seat]);
   }
-  return n_windows_ >= min_windows_ && change_ <= tolerance_;
+  const double band = highest - lowest, scale = std::max(std::abs(last), force_floor);
+  // A seat that carries nothing at all is at rest; one that swings about nothing is not.
+  return band == 0.0 ? 0.0 : scale > 0.0 ? band / scale : infinite;
+}
+
+}  // namespace
+
+bool RestWatch::add(RestSample sample) {
+  ++n_windows_;
+  history_.push_back(std::move(sample));
+  // A change over n windows is seen by n + 1 values.
+  const auto n_kept = static_cast<std::size_t>(limits_.check_windows) + 1;
+  if (history_.size() < n_kept) return false;
+  if (history_.size() > n_kept) history_.pop_front();
+  figures_ = {0.0, 0.0, 0.0};
+  for (std::size_t seat = 0; seat < history_.back().seat_force.size(); ++seat)
+    figures_.change = std::max(figures_.change, relative_band(history_, seat, limits_.force_floor));
+  for (const auto& past : history_) {
+    figures_.qdem_residual = std::max(figures_.qdem_residual, past.qdem_residual);
+    figures_.fem_residual = std::max(figures_.fem_residual, past.fem_residual);
+  }
+  return n_windows_ >= limits_.min_windows && figures_.change <= limits_.tolerance &&
+         figures_.qdem_residual <= limits_.qdem_residual_limit && figures_.fem_residual <= limits_.fem_residual_limit;
+}
+
+std::string RestWatch::text() const {
+  return fmt::format(
+      "change of the seat force {:.2e} (tolerance {:.2e}), residual of qdem {:.2e} (qdem_residual_limit {:.2e}), "
+      "residual of fem {:.2e} (fem_residual_limit {:.2e})",
+      figures_.change, limits_.tolerance, figures_.qdem_residual, limits_.qdem_residual_limit, figures_.fem_residual,
+      limits_.fem_residual_limit);
 }
 
 }  // namespace coupler

@@ -22,6 +22,7 @@ struct WindowRecord {
   std::vector<double> impulse;      ///< of the pad force on the sleeper [N s]
   std::vector<double> pad_work;     ///< of the pad force along the rail's path, in the sub-steps [J]
   double implicit_compute_s = 0.0, explicit_compute_s = 0.0;
+  double implicit_residual = 0.0, explicit_residual = 0.0;  ///< Result.residual; 0 where none was given [-]
 };
 
 }  // namespace coupler

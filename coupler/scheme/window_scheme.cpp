@@ -99,6 +99,7 @@ WindowRecord WindowScheme::advance(proto::Phase phase, std::int64_t window, Side
 
   const auto rail = sides.implicit_side.advance(implicit_request(phase, window));
   record.implicit_compute_s = rail.compute_s;
+  record.implicit_residual = rail.residual.value_or(0.0);
   record.rail_displacement = take(rail, "fem", field::rail_displacement, n);
   record.rail_velocity = take(rail, "fem", field::rail_velocity, n);
   record.force_used = take(rail, "fem", field::force_used, n);
@@ -111,6 +112,7 @@ WindowRecord WindowScheme::advance(proto::Phase phase, std::int64_t window, Side
 
   const auto sleeper = sides.explicit_side.advance(explicit_request(record, velocity_begin));
   record.explicit_compute_s = sleeper.compute_s;
+  record.explicit_residual = sleeper.residual.value_or(0.0);
   record.impulse = take(sleeper, "qdem", field::impulse, n);
   record.pad_work = take(sleeper, "qdem", field::pad_work, n);
   record.sleeper_displacement = take(sleeper, "qdem", field::sleeper_displacement, n);

@@ -7,11 +7,20 @@ namespace coupler {
 proto::Result RemoteSide::advance(const proto::Advance& request) {
   auto result = supervisor_.await<proto::Result>(name_, supervisor_.send(name_, request));
   if (result.window != request.window || result.iteration != request.iteration || result.phase != request.phase)
-    throw ParticipantError(name_, proto::ExitCode::protocol,
-                           fmt::format("{} answered for window {} iteration {} instead of window {} iteration {}",
-                                       name_, result.window, result.iteration, request.window, request.iteration),
-                           supervisor_.stage());
+    refuse(fmt::format("{} answered for window {} iteration {} instead of window {} iteration {}", name_, result.window,
+                       result.iteration, request.window, request.iteration));
+  if (request.phase == proto::Phase::initialise) check_residual(result.residual);
   return result;
+}
+
+void RemoteSide::check_residual(const std::optional<double>& residual) const {
+  const char* advice = "a participant that offers to initialise gives one of at least 0 in every result of that phase";
+  if (!residual) refuse(name_ + " gave no residual", advice);
+  if (*residual < 0.0) refuse(fmt::format("{} gave the residual {}", name_, *residual), advice);
+}
+
+void RemoteSide::refuse(const std::string& problem, const std::string& advice) const {
+  throw ParticipantError(name_, proto::ExitCode::protocol, problem, supervisor_.stage(), advice);
 }
 
 }  // namespace coupler

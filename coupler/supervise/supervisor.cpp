@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "coupler/supervise/last_words.hpp"
 
@@ -18,14 +19,25 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A participant's exit code when it is one of this house's, else `unavailable`.
-ExitCode run_code(int code) {
+/// The failure that an exit code of this house stands for; nothing for any other code, and for success.
+std::optional<ExitCode> failure_of(int code) {
   constexpr ExitCode house[] = {ExitCode::usage,    ExitCode::bad_data, ExitCode::missing_input, ExitCode::unavailable,
                                 ExitCode::internal, ExitCode::os_error, ExitCode::cannot_create, ExitCode::io_error,
                                 ExitCode::numerics, ExitCode::protocol, ExitCode::config};
   for (const auto known : house)
     if (static_cast<int>(known) == code) return known;
-  return ExitCode::unavailable;
+  return std::nullopt;
+}
+
+/// A participant's exit code when it is one of this house's, else `unavailable`.
+ExitCode run_code(int code) {
+  return failure_of(code).value_or(ExitCode::unavailable);
+}
+
+/// A program's message without the program's name, which it puts before it.
+std::string without_program(const std::string& words, const std::string& program) {
+  const auto prefix = program.substr(program.rfind('/') + 1) + ": ";
+  return words.compare(0, prefix.size(), prefix) == 0 ? words.substr(prefix.size()) : words;
 }
 
 }  // namespace
@@ -104,11 +116,16 @@ void Supervisor::report_death(const std::string& name, const ChildExit& exit) {
   // Its Bye was still on the wire when the kernel told of its exit: it went as it should.
   if (known.finished && exit.code == 0 && exit.signal == 0) return;
   const auto words = last_words(known.log_path);
-  auto problem = fmt::format("{} ({}) {} in {}", name, known.program, exit.text(), stage_);
-  if (!known.connected) problem += turned_away_.empty() ? ", before it connected" : ", turned away: " + turned_away_;
-  throw ParticipantError(name, exit.signal ? ExitCode::unavailable : run_code(exit.code), problem,
-                         words.empty() ? known.log_path : "its last words: " + words,
-                         words.empty() ? "" : "see " + known.log_path);
+  const auto end = fmt::format("{} in {}{}", exit.text(), stage_, known.connected ? "" : ", before it connected");
+  const auto program = fmt::format("{} ({})", name, known.program), log = "see " + known.log_path;
+  // One that failed as this house's programs do has said why; of any other it is only known how it ended.
+  if (exit.signal == 0 && failure_of(exit.code) && !words.empty())
+    throw ParticipantError(name, run_code(exit.code), name + ": " + without_program(words, known.program),
+                           program + " " + end, log);
+  const bool turned_away = !known.connected && !turned_away_.empty();
+  const auto why = turned_away ? turned_away_ : words.empty() ? "" : "its last words: " + words;
+  throw ParticipantError(name, exit.signal ? ExitCode::unavailable : run_code(exit.code), program + " " + end, why,
+                         log);
 }
 
 void Supervisor::report_loss(const proto::EndpointEvent& event) {
@@ -152,7 +169,7 @@ std::map<std::string, proto::Hello> Supervisor::await_hellos() {
     if (missing.empty()) return hellos;
     if (seconds_since(start) > patience_.connect_s)
       throw ParticipantError(missing.substr(0, missing.find(' ')), ExitCode::unavailable,
-                             fmt::format("{} did not connect within {:.0f} s", missing, patience_.connect_s),
+                             fmt::format("{} did not connect within {:g} s", missing, patience_.connect_s),
                              turned_away_.empty() ? stage_ : "turned away: " + turned_away_,
                              "raise coupling.connect_timeout_s if it was only slow");
     pump(slice_s);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ class FemParticipant : public proto::Participant {
   proto::Interface describe() override;
   proto::Configured configure(const proto::Configure& request) override;
   proto::FieldSet advance(const proto::Advance& request, proto::Progress& progress) override;
+  /// WheelTrack::residual().
+  std::optional<double> residual() override { return track_->residual(); }
   void commit(const proto::Commit& request) override;
   void rollback(const proto::Rollback& request) override;
   proto::FieldSet start() override;

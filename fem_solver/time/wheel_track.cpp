@@ -45,7 +45,16 @@ void WheelTrack::set_rest(const Eigen::VectorXd& displacement) {
 
 WindowOutput WheelTrack::relax(const WindowInput& input) {
   if (!relax_) relax_ = std::make_unique<Stepper>(system_, step_, initialise_damping_);
-  return advance(*relax_, input, Wheel::standing);
+  const TrackState before = state_.track;
+  WindowOutput output = advance(*relax_, input, Wheel::standing);
+  residual_ = static_residual(before, output.force_used);
+  return output;
+}
+
+double WheelTrack::static_residual(const TrackState& before, const Eigen::VectorXd& force_used) const {
+  Eigen::VectorXd load = system_.weight - system_.cells.transpose() * force_used;
+  band_.add_load(band_.at(wheel_.start), -wheel_.static_load, load);
+  return (load - (before.elastic + state_.track.elastic) / 2).lpNorm<1>() / load.lpNorm<1>();
 }
 
 void WheelTrack::start() {

@@ -55,6 +55,11 @@ class WheelTrack {
   /// One window with the wheel standing at its start under its static load and mass-proportional damping on.
   WindowOutput relax(const WindowInput& input);
 
+  /// How far the last relax() was from static equilibrium: what its window means leave to inertia and damping,
+  /// load - K u = M a + C v, over the load of weight, wheel and pads; both as the sum of the sizes of the nodal forces,
+  /// which does not depend on how many nodes share a force [-].
+  double residual() const { return residual_; }
+
   /// Damping off, velocities to zero, clock to zero; displacements and forces stay.
   void start();
 
@@ -89,6 +94,7 @@ class WheelTrack {
   void add_wheel(InterfaceProblem& problem, const BandWeights& place, double position, const Eigen::VectorXd& response,
                  const Eigen::VectorXd& free) const;
   void set_rest(const Eigen::VectorXd& displacement);
+  double static_residual(const TrackState& before, const Eigen::VectorXd& force_used) const;
 
   const RailSystem& system_;
   WheelSettings wheel_;
@@ -100,6 +106,7 @@ class WheelTrack {
   Stepper march_;
   std::unique_ptr<Stepper> relax_;  // built by the first relax(), gone after start()
   RunState state_;
+  double residual_ = 0.0;
 };
 
 }  // namespace fem

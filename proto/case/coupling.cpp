@@ -26,17 +26,23 @@ ParticipantSpec read_participant(const Section& section, const std::string& name
   return spec;
 }
 
-void read_initialise(const Section& section, Coupling& coupling) {
+Initialise read_initialise(const Section& section) {
+  Initialise result;
   const auto count = [&](const char* key, int fallback, double lowest) {
     return static_cast<int>(section.integer_or(key, fallback, Range::between(lowest, 1e9)));
   };
-  coupling.initialise_max_windows = count("max_windows", coupling.initialise_max_windows, 0);
-  coupling.initialise_min_windows = count("min_windows", coupling.initialise_min_windows, 0);
-  coupling.initialise_check_windows = count("check_windows", coupling.initialise_check_windows, 1);
-  coupling.initialise_tolerance = section.number_or("tolerance", coupling.initialise_tolerance, Range::positive());
-  coupling.initialise_force_floor = section.number_or("force_floor_n", 0.0, Range::not_negative());
-  if (coupling.initialise_min_windows > coupling.initialise_max_windows)
-    section.fail("min_windows", "min_windows is greater than max_windows");
+  result.max_windows = count("max_windows", result.max_windows, 0);
+  result.min_windows = count("min_windows", result.min_windows, 0);
+  result.check_windows = count("check_windows", result.check_windows, 1);
+  result.tolerance = section.number_or("tolerance", result.tolerance, Range::positive());
+  result.force_floor = section.number_or("force_floor_n", result.force_floor, Range::not_negative());
+  result.qdem_residual_limit = section.number_or("qdem_residual_limit", result.qdem_residual_limit, Range::positive());
+  result.fem_residual_limit = section.number_or("fem_residual_limit", result.fem_residual_limit, Range::positive());
+  if (result.min_windows > result.max_windows) section.fail("min_windows", "min_windows is greater than max_windows");
+  if (result.max_windows > 0 && result.max_windows <= result.check_windows)
+    section.fail("max_windows", "rest is judged over the last " + std::to_string(result.check_windows) + " windows",
+                 "allow more than check_windows");
+  return result;
 }
 
 }  // namespace
@@ -53,7 +59,7 @@ Coupling read_coupling(const CaseFile& file) {
   coupling.stall_timeout_s = section.number_or("stall_timeout_s", coupling.stall_timeout_s, Range::positive());
   coupling.qdem = read_participant(section, "qdem");
   coupling.fem = read_participant(section, "fem");
-  read_initialise(section.section("initialise"), coupling);
+  coupling.initialise = read_initialise(section.section("initialise"));
   section.finish();
   return coupling;
 }

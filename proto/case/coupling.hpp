@@ -17,16 +17,23 @@ struct ParticipantSpec {
   std::vector<std::string> command;  ///< program (looked up beside the coupler, then in PATH) and its first arguments
 };
 
+/// `[coupling.initialise]`: coupled relaxation before time 0, and what counts as rest.
+struct Initialise {
+  int max_windows = 0;  ///< 0: no initialise phase
+  int min_windows = 0;
+  int check_windows = 40;             ///< over which all of the following must hold
+  double tolerance = 1e-3;            ///< change of the seat force, relative to the larger of itself and force_floor
+  double force_floor = 0.0;           ///< [N]
+  double qdem_residual_limit = 5e-3;  ///< of Result.residual [-]
+  double fem_residual_limit = 5e-3;   ///< of Result.residual [-]
+};
+
 struct Coupling {
   Scheme scheme = Scheme::robin_explicit;
   double window_s = 5e-5;
   std::uint64_t n_windows = 0;
   double output_interval_s = 0.0;  ///< of the participants' fields; 0: no field output
-  int initialise_max_windows = 0;  ///< 0: no initialise phase
-  int initialise_min_windows = 0;
-  double initialise_tolerance = 1e-3;  ///< relative change of the seat force over `initialise_check_windows`
-  double initialise_force_floor = 0.0;  ///< the change is relative to at least this force [N]
-  int initialise_check_windows = 40;
+  Initialise initialise;
   double connect_timeout_s = 60.0;
   double stall_timeout_s = 60.0;  ///< alive but without progress
   ParticipantSpec qdem, fem;
@@ -35,7 +42,8 @@ struct Coupling {
 /// Reads `[coupling]`:
 ///   scheme "R1"|"E1", window_s, duration_s (a whole number of windows), output_interval_s, connect_timeout_s,
 ///   stall_timeout_s, qdem_command [..] (default ["qdem_solver", "participant"]), fem_command [..] (default
-///   ["fem_solver", "participant"]); [coupling.initialise] max_windows, min_windows, check_windows, tolerance, force_floor_n.
+///   ["fem_solver", "participant"]); [coupling.initialise] max_windows, min_windows, check_windows, tolerance,
+///   force_floor_n, qdem_residual_limit, fem_residual_limit.
 Coupling read_coupling(const CaseFile& file);
 
 }  // namespace proto

@@ -30,6 +30,9 @@ void Participant::watch(Progress&) {}
 std::string Participant::build_id() const {
   return {};
 }
+std::optional<double> Participant::residual() {
+  return {};
+}
 void Participant::rollback(const Rollback&) {
   not_offered("Rollback");
 }

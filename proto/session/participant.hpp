@@ -2,7 +2,7 @@
 //
 // Call order (the coupler leads; the session checks it and answers a break of it with a fault):
 //
-//     watch, name, capabilities, build_id -> describe -> configure -> [advance(initialise) commit]* -> start
+//     watch, name, capabilities, build_id -> describe -> configure -> [advance(initialise) residual commit]* -> start
 //         -> [advance [rollback advance]* commit]* -> finish
 //     save / restore between a commit and the next advance; a restore instead of initialise and start resumes a run
 //
@@ -12,6 +12,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "proto/error.hpp"
@@ -58,6 +59,11 @@ class Participant {
   /// Solves one window. `request.phase` = initialise: with artificial damping, clocks standing. A second call for the
   /// same window comes only after rollback().
   virtual FieldSet advance(const Advance& request, Progress& progress) = 0;
+
+  /// How far the state just advanced to is from static equilibrium: size of the out-of-balance force over the size of
+  /// the forces that should balance, at least 0 [-]. Asked for in the initialise phase only; the coupler ends the run of
+  /// a solver that offers initialise and gives none.
+  virtual std::optional<double> residual();
 
   /// The window just advanced is final; write output here.
   virtual void commit(const Commit& request) = 0;

@@ -133,7 +133,9 @@ Advance read(const fbs::Advance& m) {
           m.sub_cycles(),   fields(m.data())};
 }
 Result read(const fbs::Result& m) {
-  return {phase(m.phase()), m.window(), m.iteration(), finite(m.compute_s(), "compute_s"), fields(m.data())};
+  if (m.residual()) finite(*m.residual(), "residual");
+  return {phase(m.phase()), m.window(),  m.iteration(), finite(m.compute_s(), "compute_s"),
+          fields(m.data()), m.residual()};
 }
 Commit read(const fbs::Commit& m) {
   return {m.window()};

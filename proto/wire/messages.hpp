@@ -110,6 +110,7 @@ struct Result {
   std::uint32_t iteration = 0;
   double compute_s = 0.0;
   FieldSet data;
+  std::optional<double> residual;  ///< out-of-balance force over force scale [-]; initialise phase only
 };
 struct Commit { std::int64_t window = 0; };
 struct Rollback { std::int64_t window = 0; };

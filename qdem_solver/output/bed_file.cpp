@@ -239,11 +239,16 @@ void write_bed_file(const std::string& path, const Bed& bed) {
 Bed read_bed_file(const std::string& path, const BedPhysics& physics) {
   if (!std::filesystem::exists(path)) throw proto::Error(proto::ExitCode::missing_input, "no bed file", path);
   const Hdf5Store file = Hdf5Store::open(path);
+  std::string why;
   try {
     return take_bed(file, physics);
   } catch (const std::out_of_range&) {
-    throw proto::Error(proto::ExitCode::bad_data, "the bed file is not whole", path, "delete it");
+    why = "it is not whole";
+  } catch (const proto::Error& error) {
+    why = error.what();
   }
+  throw proto::Error(proto::ExitCode::bad_data, "the bed file cannot be used: " + why, path,
+                     "delete it, then the bed is built anew");
 }
 
 }  // namespace qdem

@@ -7,6 +7,7 @@
 
 #include "proto/case/coupling.hpp"
 #include "proto/error.hpp"
+#include "proto/result/provenance.hpp"
 #include "qdem_solver/engine/pads.hpp"
 #include "qdem_solver/participant/seat_registration.hpp"
 
@@ -21,6 +22,10 @@ QdemParticipant::QdemParticipant(proto::CaseFile file, BedSource source, std::st
 }
 
 QdemParticipant::~QdemParticipant() = default;
+
+std::string QdemParticipant::build_id() const {
+  return "qdem_solver " + proto::project_version();
+}
 
 proto::Capabilities QdemParticipant::capabilities() const {
   proto::Capabilities capabilities;
@@ -75,6 +80,10 @@ proto::FieldSet QdemParticipant::advance(const proto::Advance& request, proto::P
   const auto& begin = request.data.get(field::rail_displacement_begin);
   const auto& end = request.data.get(field::rail_displacement);
   return values(bed_->engine().advance(bed_->state(), dt, request.sub_cycles, {begin, end}));
+}
+
+std::optional<double> QdemParticipant::residual() {
+  return bed_->engine().unbalanced_ratio(bed_->state());
 }
 
 bool QdemParticipant::output_is_due(std::int64_t window) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,15 @@ class QdemParticipant : public proto::Participant {
   QdemParticipant(proto::CaseFile file, BedSource source, std::string name, std::string out);
   ~QdemParticipant() override;
 
+  std::string build_id() const override;
   std::string name() const override { return name_; }
   proto::Capabilities capabilities() const override;
   void watch(proto::Progress& progress) override { progress_ = &progress; }
   proto::Interface describe() override;
   proto::Configured configure(const proto::Configure& request) override;
   proto::FieldSet advance(const proto::Advance& request, proto::Progress& progress) override;
+  /// Engine::unbalanced_ratio() of the window's last step.
+  std::optional<double> residual() override;
   void commit(const proto::Commit& request) override;
   void rollback(const proto::Rollback& request) override;
   proto::FieldSet start() override;

@@ -1,4 +1,4 @@
-// The bytes on the wire, as every participant ever built against protocol 1.0 writes and reads them.
+// The bytes on the wire, as every participant ever built against protocol 1 writes and reads them.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -10,10 +10,32 @@ using namespace proto;
 
 namespace {
 
-const Message golden_message = {0x1122334455667788u, 5, 0, Commit{258}};
-const std::string golden_hex =
-    "514643315000000034fa8808e16dd8571c000000514643310000000000000e0022000c0014000000070008000e0000000000000a"
-    "200000008877665544332211050000000000000000000000000006000c000400060000000201000000000000";
+struct Golden {
+  Message message;
+  std::string hex;
+};
+
+Message result(std::optional<double> residual) {
+  Result body{Phase::initialise, 3, 0, 0.25, {}, residual};
+  body.data.set(field::impulse, {1.0, -2.5, 0.125});
+  return {0x1122334455667788u, 6, 5, body};
+}
+
+const std::vector<Golden> golden = {
+    {{0x1122334455667788u, 5, 0, Commit{258}},  // 1.0
+     "514643315000000034fa8808e16dd8571c000000514643310000000000000e0022000c0014000000070008000e0000000000"
+     "000a200000008877665544332211050000000000000000000000000006000c000400060000000201000000000000"},
+    {result({}),  // 1.0
+     "51464331b0000000b83d2fba331e63681c000000514643310000000000000e0026000c0014001c00070008000e0000000000"
+     "00092c00000088776655443322110600000000000000050000000000000000000e001c00000008000000100004000e000000"
+     "180000000300000000000000000000000000d03f00000000010000000c00000008000c000400080008000000080000001000"
+     "000007000000696d70756c73650003000000000000000000f03f00000000000004c0000000000000c03f"},
+    {result(4e-3),  // 1.1
+     "51464331b8000000ee9484254d3f60a21c000000514643310000000000000e0024000c0014001c00070008000e0000000000"
+     "00092c0000008877665544332211060000000000000005000000000000001000240000000800000010000400180010000000"
+     "200000000300000000000000000000000000d03ffca9f1d24d62703f00000000010000000c00000008000c00040008000800"
+     "0000080000001000000007000000696d70756c73650003000000000000000000f03f00000000000004c0000000000000c03f"},
+};
 
 std::string hexadecimal(const std::vector<std::uint8_t>& bytes) {
   std::string text;
@@ -32,17 +54,17 @@ std::vector<std::uint8_t> bytes_of(const std::string& hex) {
 }
 
 TEST(GoldenFrame, is_still_written) {
-  EXPECT_EQ(hexadecimal(encode(golden_message)), golden_hex);
+  for (const auto& [message, hex] : golden) EXPECT_EQ(hexadecimal(encode(message)), hex);
 }
 
 TEST(GoldenFrame, is_still_read) {
-  EXPECT_TRUE(decode(bytes_of(golden_hex)) == golden_message);
+  for (const auto& [message, hex] : golden) EXPECT_TRUE(decode(bytes_of(hex)) == message) << hex;
 }
 
 TEST(Schema, its_hash_belongs_to_this_protocol_version) {
   EXPECT_EQ(protocol_major, 1u);
-  EXPECT_EQ(protocol_minor, 0u);
-  EXPECT_EQ(schema_hash(), 11661546224345613681u)
+  EXPECT_EQ(protocol_minor, 1u);
+  EXPECT_EQ(schema_hash(), 3994625736155347186u)
       << "the schema changed: raise the version, and say so in proto/README.md";
 }
 

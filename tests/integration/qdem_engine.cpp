@@ -238,3 +238,35 @@ TEST(Pads, ASteadyRailIsExactlyTheLaw) {
   }
   EXPECT_EQ(block.state.pad_force[5], block.model.pads[1].laws[2].preload);
 }
+
+TEST(Engine, UnbalancedRatioIsNewtonsLawOverTheContactForce) {
+  // On a plane without friction every contact force is vertical, so their sizes sum up to M (g + a) for a cube with the
+  // mean acceleration a.
+  auto soft = tests::rock();
+  soft.young = 1e8;
+  auto model = tests::free_bodies(tests::box_template({2, 2, 2}, {0.04, 0.04, 0.04}), soft, 1);
+  model.gravity = {0, 0, -9.81};
+  model.contact = {1e5, 0.0, 0.2, 0.0, 1e-3};
+  model.planes.push_back({"ground", {0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 0.0});
+  qdem::make_batches(model);
+  qdem::Placement place;
+  place.translation = Vector3d(0, 0, 1.001e-3);
+  qdem::State state = qdem::make_state(model, {place});
+  qdem::Engine engine(model, {1});
+  engine.prepare(state);
+  EXPECT_EQ(engine.unbalanced_ratio(state), 1.0) << "it falls";
+  int n_touching = 0;
+  for (int look = 0; look < 200; ++look) {
+    engine.advance(state, step, 20);
+    double mass = 0.0, force = 0.0;
+    for (int node = 0; node < model.shape(0).n_nodes(); ++node) {
+      mass += model.node_mass(0, node);
+      force += model.node_mass(0, node) * qdem::State::gather(model, state.a, 0, node)[2];
+    }
+    const double contact = force + mass * 9.81;
+    if (contact < 0.01 * mass * 9.81) continue;  // in the air
+    ++n_touching;
+    ASSERT_TRUE(near_rel(engine.unbalanced_ratio(state), std::abs(force) / contact, 1e-9)) << look;
+  }
+  EXPECT_GT(n_touching, 100);
+}

@@ -85,6 +85,7 @@ class Driver {
 
 TEST(QdemParticipant, RegistersAnInterfaceTheCouplerAccepts) {
   Driver driver;
+  EXPECT_EQ(driver.participant_.build_id().find("qdem_solver "), 0u);
   const auto seats = proto::read_rail_seats(driver.file_);
   EXPECT_NO_THROW(coupler::check_interface("qdem", driver.interface_, seats));
   auto wrong = driver.interface_;
@@ -97,7 +98,10 @@ TEST(QdemParticipant, RegistersAnInterfaceTheCouplerAccepts) {
 
 TEST(QdemParticipant, RelaxesToTheForceOfTheSpring) {
   Driver driver;
+  driver.relax(1);
+  EXPECT_GT(driver.participant_.residual().value(), 0.1);
   driver.relax(1500);
+  EXPECT_LT(driver.participant_.residual().value(), 5e-3);
   // At rest the sleeper carries rail force and weight on its contacts; the pad's force is the law at x.
   const auto& x = driver.last_.get(field::sleeper_displacement);
   double expected = 0;

@@ -26,10 +26,10 @@ TEST_F(Session, runs_from_hello_to_bye_in_the_documented_order) {
   const auto configured = ask<Configured>(Configure{1e-3, 3, LoadMode::robin, "out", {}, {}, {}, {}});
   EXPECT_EQ(configured.largest_step_s.value(), 1e-6);
   EXPECT_EQ(configured.facts.at(1).text, "words");
-  ask<Result>(window(0, 0, Phase::initialise));
+  EXPECT_EQ(ask<Result>(window(0, 0, Phase::initialise)).residual, 0.25);
   endpoint->send("mock", Commit{0});
   EXPECT_EQ(ask<Result>(Start{}).window, -1);
-  ask<Result>(window(0));
+  EXPECT_FALSE(ask<Result>(window(0)).residual);
   endpoint->send("mock", Rollback{0});
   const auto repeated = ask<Result>(window(0, 1));
   EXPECT_EQ(repeated.data.get("echo"), (std::vector<double>{0, 1, 1e-3}));
@@ -43,9 +43,9 @@ TEST_F(Session, runs_from_hello_to_bye_in_the_documented_order) {
   EXPECT_EQ(ask<Bye>(Finish{}).facts.at(0).key, "mock.end");
   EXPECT_EQ(served.get().code, 0);
   EXPECT_EQ(mock.calls,
-            (std::vector<std::string>{"describe", "configure 3", "advance 0.0", "commit 0", "start", "advance 0.0",
-                                      "rollback 0", "advance 0.1", "commit 0", "save a", "advance 1.0", "commit 1",
-                                      "restore a", "advance 1.0", "commit 1", "finish"}));
+            (std::vector<std::string>{"describe", "configure 3", "advance 0.0", "residual", "commit 0", "start",
+                                      "advance 0.0", "rollback 0", "advance 0.1", "commit 0", "save a", "advance 1.0",
+                                      "commit 1", "restore a", "advance 1.0", "commit 1", "finish"}));
   EXPECT_TRUE(endpoint->wait(0.3).empty()) << "leaving after Bye is no problem";
 }
 
@@ -193,6 +193,18 @@ TEST_F(Session, a_solution_that_is_not_finite_stops_with_its_place) {
   const auto fault = ask_fault(window(0));
   EXPECT_EQ(fault.code, 75);
   EXPECT_EQ(fault.text, "the solution is not finite: echo - rail seat 'seat', cell 0, lateral, window 0");
+  EXPECT_EQ(served.get().code, 75);
+}
+
+TEST_F(Session, a_residual_that_is_not_finite_stops_with_the_window) {
+  open();
+  MockParticipant mock;
+  mock.given_residual = std::nan("");
+  auto served = serve_in_thread(mock, options());
+  configure();
+  const auto fault = ask_fault(window(0, 0, Phase::initialise));
+  EXPECT_EQ(fault.code, 75);
+  EXPECT_EQ(fault.text, "the residual is not finite - initialise window 0");
   EXPECT_EQ(served.get().code, 75);
 }
 

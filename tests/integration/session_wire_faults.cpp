@@ -42,7 +42,8 @@ class Endpoint : public tests::SessionHarness {
 };
 
 TEST_F(Endpoint, another_protocol_version_is_rejected_with_both_numbers) {
-  for (const auto& [major, minor] : {std::pair(2u, 0u), std::pair(0u, 9u), std::pair(4294967295u, 0u)}) {
+  for (const auto& [major, minor] :
+       {std::pair(2u, 0u), std::pair(0u, 9u), std::pair(1u, 0u), std::pair(4294967295u, 0u)}) {
     RawDealer dealer(endpoint->address());
     auto greeting = hello();
     greeting.protocol_major = major, greeting.protocol_minor = minor;
@@ -51,7 +52,7 @@ TEST_F(Endpoint, another_protocol_version_is_rejected_with_both_numbers) {
     EXPECT_EQ(event.participant, "");
     const auto reason = std::get<Reject>(dealer.receive().body).reason;
     EXPECT_EQ(reason, "it speaks protocol version " + std::to_string(major) + "." + std::to_string(minor) +
-                          ", the coupler 1.0");
+                          ", the coupler 1.1");
     EXPECT_EQ(event.problem, "'mock' was rejected: " + reason);
   }
 }

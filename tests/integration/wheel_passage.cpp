@@ -1,10 +1,8 @@
 // The whole chain on the shipped case wheel_passage_quick: bed, three processes, passage, record.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <regex>
-
 #include "proto/result/reader.hpp"
+#include "tests/support/case_changes.hpp"
 #include "tests/support/coupled_run.hpp"
 
 namespace {
@@ -15,15 +13,8 @@ constexpr double energy_limit = 1e-3, momentum_limit = 1e-4;  // coupler/README.
 constexpr double force_scale = 650.0;                         // 2 % of a seat's peak, force_floor_n of the case [N]
 constexpr double patience_s = 900.0;
 
-/// The shipped case with `key = value` put in the place of the key's line.
-std::string quick_case(const std::vector<std::pair<std::string, std::string>>& changes = {}) {
-  std::string text = tests::read_text(HOUSE_SOURCE_DIR "/cases/wheel_passage_quick/case.toml");
-  for (const auto& [key, value] : changes) {
-    const std::regex line("(^|\n)" + key + " = [^\n]*");
-    EXPECT_TRUE(std::regex_search(text, line)) << key;
-    text = std::regex_replace(text, line, "$1" + key + " = " + value, std::regex_constants::format_first_only);
-  }
-  return text;
+std::string quick_case(const tests::CaseChanges& changes = {}) {
+  return tests::with_changes(tests::read_text(HOUSE_SOURCE_DIR "/cases/wheel_passage_quick/case.toml"), changes);
 }
 
 /// The bed is built by the first test and loaded by the others.

@@ -1,4 +1,4 @@
-// Runs of the split oscillator through `coupler run`: three real processes.
+// Runs through `coupler run`: three real processes. The split oscillator as a case for them.
 #pragma once
 
 #include <sys/wait.h>
@@ -15,6 +15,12 @@
 namespace tests {
 
 inline const std::string bin_folder = HOUSE_BIN_DIR;
+
+/// Command of tests/support/relaxing_participant.cpp as a case has it.
+inline std::string relaxing_command(const std::string& side, const std::string& fault = "none") {
+  return "[\"" + bin_folder + "/../test_bin/relaxing_participant\", \"--side\", \"" + side + "\", \"--fault\", \"" +
+         fault + "\"]";
+}
 
 /// A variant of the case split_oscillator. The texts are inserted as they are.
 struct OscillatorCase {
@@ -96,10 +102,15 @@ class CoupledRun {
     return found ? std::stoi(match[1]) : 0;
   }
 
-  /// True once windows are being run.
-  bool await_march() const {
-    return becomes_true([&] { return log().find("marching") != std::string::npos; }, 20.0);
+  /// True once the log holds `part`.
+  bool await_log(const std::string& part, double limit_s = 20.0) const {
+    return becomes_true([&] { return log().find(part) != std::string::npos; }, limit_s);
   }
+  /// True once windows are being run.
+  bool await_march() const { return await_log("marching"); }
+
+  /// Processes that the run left: those whose command line names its folder.
+  int n_processes() const { return count_processes(folder_.path()); }
 
  private:
   TemporaryFolder folder_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct MockParticipant : proto::Participant {
     data.set("echo", {1.0 * request.window, 1.0 * request.iteration, request.window_s});
     return data;
   };
+  std::optional<double> given_residual = 0.25;
   std::function<void(const proto::Commit&)> on_commit = [](const proto::Commit&) {};
 
   std::string name() const override { return called; }
@@ -45,6 +47,10 @@ struct MockParticipant : proto::Participant {
   proto::FieldSet advance(const proto::Advance& request, proto::Progress& progress) override {
     calls.push_back("advance " + std::to_string(request.window) + "." + std::to_string(request.iteration));
     return on_advance(request, progress);
+  }
+  std::optional<double> residual() override {
+    calls.push_back("residual");
+    return given_residual;
   }
   void commit(const proto::Commit& request) override {
     calls.push_back("commit " + std::to_string(request.window));

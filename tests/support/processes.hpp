@@ -28,6 +28,17 @@ inline bool is_gone(int pid) {
   return end == std::string::npos || stat.compare(end, 3, ") Z") == 0;
 }
 
+/// Number of running processes whose command line holds `part`.
+inline int count_processes(const std::string& part) {
+  int n = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const auto name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") == std::string::npos)
+      n += read_text("/proc/" + name + "/cmdline").find(part) != std::string::npos;
+  }
+  return n;
+}
+
 /// Asks `condition` every 10 ms for at most `limit_s`.
 inline bool becomes_true(const std::function<bool()>& condition, double limit_s) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit_s);

@@ -1,7 +1,14 @@
 // One side of the split oscillator under a constant load, with an initialise phase: `--side rail` or `--side sleeper`.
-// Damps artificially by taking 5 % of the velocity in each window of that phase.
+// Damps artificially by taking 5 % of the velocity in each window of that phase. `--fault` makes it misbehave:
+// no_residual; negative_residual; nan: a number that is not finite in a message; and in window 3 of the march hang: it
+// computes no more and its heart goes on beating; exit: it ends as if all were well.
+#include <unistd.h>
+
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "proto/case/rail_seat.hpp"
@@ -37,18 +44,29 @@ proto::FieldSet narrowed(const proto::FieldSet& data) {
 template <class Model>
 class Relaxing : public proto::Participant {
  public:
-  Relaxing(std::string name, proto::RailSeat seat) : name_(std::move(name)), seat_(std::move(seat)) {}
+  Relaxing(std::string name, proto::RailSeat seat, std::string fault)
+      : name_(std::move(name)), seat_(std::move(seat)), fault_(std::move(fault)) {}
   std::string name() const override { return name_; }
   proto::Capabilities capabilities() const override { return {true, false, false, true}; }
   proto::Interface describe() override;
-  proto::Configured configure(const proto::Configure&) override { return {}; }
+  proto::Configured configure(const proto::Configure&) override {
+    if (fault_ == "nan") return {std::nan(""), {}};
+    return {};
+  }
   proto::FieldSet advance(const proto::Advance& request, proto::Progress& progress) override {
+    if (request.phase == proto::Phase::march && request.window == 3) misbehave();
     auto narrow = request;
     narrow.data = narrowed(request.data);
+    const double before = model_.velocity();
     const auto result = model_.advance(narrow);
+    inertia_force_ = mass() * std::abs(model_.velocity() - before) / request.window_s;
     if (request.phase == proto::Phase::initialise) model_.damp(kept_velocity);
     progress.bump();
     return widened(result.data);
+  }
+  std::optional<double> residual() override {
+    if (fault_ == "no_residual") return std::nullopt;
+    return fault_ == "negative_residual" ? -0.5 : inertia_force_ / std::abs(load_n);
   }
   void commit(const proto::Commit&) override {}
   proto::FieldSet start() override {
@@ -61,8 +79,20 @@ class Relaxing : public proto::Participant {
   std::vector<proto::Fact> finish() override { return {}; }
 
  private:
+  void misbehave() const {
+    while (fault_ == "hang") pause();
+    if (fault_ == "exit") std::_Exit(0);
+  }
+
+  static double mass() {
+    const auto o = loaded_oscillator();
+    return std::is_same_v<Model, tests::RailModel> ? o.rail_mass : o.sleeper_mass;
+  }
+
   std::string name_;
   proto::RailSeat seat_;
+  std::string fault_;
+  double inertia_force_ = 0.0;
   Model model_{loaded_oscillator()};
 };
 
@@ -106,11 +136,12 @@ int main(int argc, char** argv) {
     const auto seat = proto::read_rail_seats(file).front();
     const auto options = proto::read_session_options(option(argc, argv, "--endpoint"), file.hash());
     const auto name = option(argc, argv, "--name");
+    const auto fault = option(argc, argv, "--fault");
     std::unique_ptr<proto::Participant> side;
     if (option(argc, argv, "--side") == "rail")
-      side = std::make_unique<Relaxing<tests::RailModel>>(name, seat);
+      side = std::make_unique<Relaxing<tests::RailModel>>(name, seat, fault);
     else
-      side = std::make_unique<Relaxing<tests::SleeperModel>>(name, seat);
+      side = std::make_unique<Relaxing<tests::SleeperModel>>(name, seat, fault);
     proto::serve(*side, options);
     return 0;
   } catch (const proto::Error& error) {

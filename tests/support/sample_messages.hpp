@@ -55,7 +55,7 @@ inline auto tied(const Advance& m) {
   return std::tie(m.phase, m.window, m.iteration, m.window_s, m.sub_cycles, m.data);
 }
 inline auto tied(const Result& m) {
-  return std::tie(m.phase, m.window, m.iteration, m.compute_s, m.data);
+  return std::tie(m.phase, m.window, m.iteration, m.compute_s, m.data, m.residual);
 }
 inline auto tied(const Commit& m) {
   return std::tie(m.window);
@@ -119,7 +119,8 @@ inline std::vector<proto::Message> sample_messages() {
       Configured{},
       Start{},
       Advance{Phase::march, 12, 3, 5e-5, 50, data},
-      Result{Phase::march, -1, 3, 0.25, data},
+      Result{Phase::march, -1, 3, 0.25, data, {}},
+      Result{Phase::initialise, 5, 1, 0.5, data, 4e-3},
       Commit{12},
       Rollback{13},
       Save{14, "a/b"},

@@ -89,7 +89,22 @@ TEST(Coupling, has_defaults_for_all_but_the_duration) {
   EXPECT_EQ(coupling.scheme, Scheme::robin_explicit);
   EXPECT_EQ(coupling.n_windows, 1600u) << "0.08 s of 5e-5 s";
   EXPECT_EQ(coupling.qdem.command, (std::vector<std::string>{"qdem_solver", "participant"}));
-  EXPECT_EQ(coupling.initialise_max_windows, 0);
+  EXPECT_EQ(coupling.initialise.max_windows, 0);
+  EXPECT_EQ(coupling.initialise.qdem_residual_limit, 5e-3);
+}
+
+TEST(Coupling, limits_of_rest_are_read) {
+  const CaseText file(
+      "[coupling]\nduration_s = 0.08\n[coupling.initialise]\nmin_windows = 1\nmax_windows = 9\ncheck_windows = 4\n"
+      "tolerance = 0.2\nforce_floor_n = 30.0\nqdem_residual_limit = 0.02\nfem_residual_limit = 0.01\n");
+  const auto limits = read_coupling(file.load()).initialise;
+  EXPECT_EQ(limits.min_windows, 1);
+  EXPECT_EQ(limits.max_windows, 9);
+  EXPECT_EQ(limits.check_windows, 4);
+  EXPECT_EQ(limits.tolerance, 0.2);
+  EXPECT_EQ(limits.force_floor, 30.0);
+  EXPECT_EQ(limits.qdem_residual_limit, 0.02);
+  EXPECT_EQ(limits.fem_residual_limit, 0.01);
 }
 
 TEST(Coupling, bad_values_are_refused) {
@@ -106,6 +121,10 @@ TEST(Coupling, bad_values_are_refused) {
             "the command is empty - case.toml:3:16: coupling.qdem_command - give the program and its first arguments");
   EXPECT_EQ(refusal("duration_s = 1\n[coupling.initialise]\nmin_windows = 5\nmax_windows = 4\n"),
             "min_windows is greater than max_windows - case.toml:4:15: coupling.initialise.min_windows");
+  EXPECT_EQ(
+      refusal("duration_s = 1\n[coupling.initialise]\nmax_windows = 40\n"),
+      "rest is judged over the last 40 windows - case.toml:4:15: coupling.initialise.max_windows - allow more than "
+      "check_windows");
   EXPECT_EQ(refusal("duration_s = 1\n[coupling.initialise]\ntolerence = 5\n"),
             "unknown key - case.toml:4:1: coupling.initialise.tolerence - did you mean 'tolerance'?");
 }

@@ -1,12 +1,16 @@
 // Figures, summary and output folder of a run.
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "coupler/record/figures.hpp"
 #include "coupler/record/run_folder.hpp"
+#include "coupler/record/socket_folder.hpp"
 #include "coupler/record/summary.hpp"
 #include "proto/error.hpp"
 #include "tests/support/processes.hpp"
@@ -64,13 +68,15 @@ TEST(Summary, PutsFactsUnderTheirDottedKeys) {
 TEST(Summary, AFailureIsTold) {
   coupler::Summary summary;
   summary.status = "failed";
-  summary.initialise_change = std::numeric_limits<double>::infinity();
+  summary.rest = {std::numeric_limits<double>::infinity(), 4e-3, 2e-3};
   summary.failure = {"fem: \"lost\"", "fem", 69};
   const auto json = nlohmann::json::parse(coupler::summary_text(summary));
   EXPECT_EQ(json["failure"]["message"], "fem: \"lost\"");
   EXPECT_EQ(json["failure"]["culprit"], "fem");
   EXPECT_EQ(json["failure"]["exit_code"], 69);
   EXPECT_TRUE(json["initialise"]["change_relative"].is_null());
+  EXPECT_EQ(json["initialise"]["qdem_residual"], 4e-3);
+  EXPECT_EQ(json["initialise"]["fem_residual"], 2e-3);
 }
 
 TEST(RunFolder, IsLockedForItsLife) {
@@ -92,17 +98,51 @@ TEST(RunFolder, RefusesContentAndFiles) {
   EXPECT_THROW(coupler::RunFolder(parent.file("old"), "case"), proto::Error);
 }
 
-TEST(SocketFolder, IsPrivateAndGoesAway) {
+/// Socket folders are made in a temporary folder.
+class SocketFolder : public ::testing::Test {
+ protected:
+  SocketFolder() { setenv("XDG_RUNTIME_DIR", parent_.path().c_str(), 1); }
+  ~SocketFolder() override { unsetenv("XDG_RUNTIME_DIR"); }
+
+  /// A folder of `mode` as a coupler that was killed leaves it, with its socket.
+  std::string left_behind(const std::string& name, mode_t mode = 0700) const {
+    const auto path = parent_.file(name);
+    EXPECT_EQ(mkdir(path.c_str(), mode), 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    (path + "/coupler").copy(address.sun_path, sizeof address.sun_path - 1);
+    const int fd = socket(AF_UNIX, SOCK_STREAM, 0);
+    EXPECT_EQ(bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    close(fd);
+    return path;
+  }
+
+  tests::TemporaryFolder parent_;
+};
+
+TEST_F(SocketFolder, IsPrivateAndGoesAway) {
   std::string path;
   {
     const coupler::SocketFolder folder;
     path = folder.path();
+    EXPECT_EQ(std::filesystem::path(path).parent_path(), parent_.path());
     struct stat status {};
     ASSERT_EQ(stat(path.c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777, 0700u);
-    std::ofstream(path + "/coupler") << "";
   }
   EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST_F(SocketFolder, RemovesWhatADeadCouplerLeftAndNothingElse) {
+  const auto dead = left_behind("qdem-fem-a1b2c3"), open_to_others = left_behind("qdem-fem-d1d2d3", 0755),
+             longer_name = left_behind("qdem-fem-a1b2c3d4"), with_results = left_behind("qdem-fem-e1e2e3");
+  std::ofstream(with_results + "/results") << "mine";
+  const coupler::SocketFolder alive;
+  const coupler::SocketFolder next;
+  EXPECT_FALSE(std::filesystem::exists(dead));
+  for (const auto& path :
+       {alive.path(), next.path(), open_to_others + "/coupler", longer_name + "/coupler", with_results + "/results"})
+    EXPECT_TRUE(std::filesystem::exists(path)) << path;
 }
 
 }  // namespace

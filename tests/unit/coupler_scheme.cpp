@@ -171,26 +171,71 @@ TEST(Audit, SumsVectorsPerSeatAndTakesTheLargestPrefix) {
   EXPECT_TRUE(tests::near_abs(audit.momentum_defect_relative(), 0.5 / 4.0, 1e-15));
 }
 
+/// A tolerance of 1 %, the default limits of the residuals.
+proto::Initialise rest_limits(int min_windows, int check_windows, double force_floor = 0.0) {
+  proto::Initialise limits;
+  limits.min_windows = min_windows, limits.check_windows = check_windows;
+  limits.tolerance = 1e-2, limits.force_floor = force_floor;
+  return limits;
+}
+
 TEST(RestWatch, WaitsForTheBandAndTheMinimum) {
-  coupler::RestWatch watch(6, 3, 1e-2);
-  EXPECT_FALSE(watch.add({-50.0}));
-  for (int n = 0; n < 4; ++n) EXPECT_FALSE(watch.add({-100.0 - 0.1 * n})) << n;
-  EXPECT_TRUE(watch.add({-100.4}));
-  EXPECT_TRUE(tests::near_rel(watch.change(), 0.3 / 100.4, 1e-9));
+  coupler::RestWatch watch(rest_limits(6, 3));
+  EXPECT_FALSE(watch.add({{-50.0}}));
+  for (int n = 0; n < 4; ++n) EXPECT_FALSE(watch.add({{-100.0 - 0.1 * n}})) << n;
+  EXPECT_TRUE(watch.add({{-100.4}}));
+  EXPECT_TRUE(tests::near_rel(watch.figures().change, 0.3 / 100.4, 1e-9));
 }
 
 TEST(RestWatch, BelowTheFloorTheChangeIsRelativeToIt) {
-  coupler::RestWatch loose(0, 2, 1e-2, 1000.0), strict(0, 2, 1e-2);
+  coupler::RestWatch loose(rest_limits(0, 2, 1000.0)), strict(rest_limits(0, 2));
   bool loose_rests = false, strict_rests = false;
-  for (const double force : {10.0, 14.0, 12.0}) loose_rests = loose.add({force}), strict_rests = strict.add({force});
+  for (const double force : {10.0, 14.0, 12.0}) {
+    loose_rests = loose.add({{force}});
+    strict_rests = strict.add({{force}});
+  }
   EXPECT_TRUE(loose_rests);
   EXPECT_FALSE(strict_rests);
-  EXPECT_NEAR(loose.change(), 4.0 / 1000.0, 1e-15);
+  EXPECT_NEAR(loose.figures().change, 4.0 / 1000.0, 1e-15);
 }
 
 TEST(RestWatch, ASwingAboutNothingIsNoRest) {
-  coupler::RestWatch watch(0, 2, 1e-2);
-  for (int n = 0; n < 50; ++n) EXPECT_FALSE(watch.add({n % 2 ? 1.0 : -1.0}));
+  coupler::RestWatch watch(rest_limits(0, 2));
+  for (int n = 0; n < 50; ++n) EXPECT_FALSE(watch.add({{n % 2 ? 1.0 : -1.0}}));
+}
+
+TEST(RestWatch, EachResidualMustStayWithinItsLimit) {
+  auto limits = rest_limits(0, 2);
+  limits.qdem_residual_limit = 0.02, limits.fem_residual_limit = 0.01;
+  const auto rests_with = [&](double qdem, double fem) {
+    coupler::RestWatch watch(limits);
+    watch.add({{5.0}, qdem, fem});
+    EXPECT_FALSE(watch.add({{5.0}, 0.0, 0.0})) << "too few windows were seen";
+    return watch.add({{5.0}, 0.0, 0.0});
+  };
+  EXPECT_TRUE(rests_with(0.02, 0.01));
+  EXPECT_FALSE(rests_with(0.021, 0.01));
+  EXPECT_FALSE(rests_with(0.02, 0.011));
+}
+
+TEST(RestWatch, ForgetsResidualsOlderThanItsWindows) {
+  coupler::RestWatch watch(rest_limits(0, 2));
+  watch.add({{5.0}, 1.0, 1.0});
+  for (int n = 0; n < 2; ++n) EXPECT_FALSE(watch.add({{5.0}, 1e-3, 2e-3})) << n;
+  EXPECT_TRUE(watch.add({{5.0}, 1e-3, 2e-3}));
+  EXPECT_EQ(watch.figures().qdem_residual, 1e-3);
+  EXPECT_EQ(watch.figures().fem_residual, 2e-3);
+}
+
+TEST(RestWatch, NamesEveryCriterionWithValueAndLimit) {
+  auto limits = rest_limits(0, 1);
+  limits.qdem_residual_limit = 0.02;
+  coupler::RestWatch watch(limits);
+  EXPECT_NE(watch.text().find("change of the seat force inf"), std::string::npos) << watch.text();
+  for (int n = 0; n < 2; ++n) watch.add({{5.0}, 0.5, 3e-4});
+  EXPECT_EQ(watch.text(),
+            "change of the seat force 0.00e+00 (tolerance 1.00e-02), residual of qdem 5.00e-01 (qdem_residual_limit "
+            "2.00e-02), residual of fem 3.00e-04 (fem_residual_limit 5.00e-03)");
 }
 
 }  // namespace

@@ -46,6 +46,11 @@ TEST(Wire, doubles_are_exact_to_the_last_bit) {
 TEST(Wire, no_number_is_not_the_number_zero) {
   const auto back = std::get<Configured>(decode(encode({1, 1, 0, Configured{0.0, {}}})).body);
   EXPECT_EQ(back.largest_step_s, std::optional<double>(0.0));
+  for (const std::optional<double> residual : {std::optional<double>(), std::optional<double>(0.0)}) {
+    Result result;
+    result.residual = residual;
+    EXPECT_EQ(std::get<Result>(decode(encode({1, 1, 0, result})).body).residual, residual);
+  }
 }
 
 TEST(Wire, a_frame_at_an_odd_address_is_read) {
@@ -116,6 +121,10 @@ TEST(Wire, a_number_that_is_not_finite_is_refused_with_field_and_index) {
   std::string text;
   EXPECT_EQ(refusal(encode({1, 1, 0, Configured{std::nan(""), {}}}), &text), 75);
   EXPECT_NE(text.find("largest_step_s"), std::string::npos) << text;
+  Result result;
+  result.residual = HUGE_VAL;
+  EXPECT_EQ(refusal(encode({1, 1, 0, result}), &text), 75);
+  EXPECT_NE(text.find("residual"), std::string::npos) << text;
   Interface interface;
   interface.seats.push_back({"north", {0, HUGE_VAL}, {}, {}, {}, {}, {}, {}, {}});
   EXPECT_EQ(refusal(encode({1, 1, 0, interface}), &text), 75);

@@ -132,6 +132,38 @@ TEST(Window, prescribed_force_moves_the_rail_as_the_same_pad_force_does) {
   EXPECT_TRUE(near_abs(difference.norm() / robin.state().track.displacement.norm(), 0.0, 1e-10));
 }
 
+TEST(Residual, is_inertia_and_damping_over_the_load) {
+  const auto settings = short_track();
+  const auto system = fem::build_rail_system(settings, {tests::rail_seat(0.0)}, fem::SeatOwner::partner);
+  const auto laws = proto::interface_laws(system.coupled_seats);
+  fem::WheelSettings wheel;
+  wheel.start = 0.2;
+  fem::WheelTrack track(system, settings, wheel, step, laws);
+  const auto n = static_cast<Eigen::Index>(laws.size());
+  fem::WindowInput input;
+  input.sleeper_displacement = Eigen::VectorXd::Constant(n, -2e-4);
+  input.sleeper_velocity = input.carry = Eigen::VectorXd::Zero(n);
+  track.rest(input.sleeper_displacement);
+  track.relax(input);
+  EXPECT_TRUE(near_abs(track.residual(), 0.0, 1e-8)) << "the static state is at rest";
+
+  input.sleeper_displacement.setConstant(-3e-4);  // the sleeper is pulled away: rail and supports begin to move
+  for (int window = 0; window < 3; ++window) {
+    const fem::TrackState before = track.state().track;
+    const auto output = track.relax(input);
+    const fem::TrackState after = track.state().track;
+    const Eigen::VectorXd rate = (before.velocity + after.velocity) / 2;
+    const Eigen::VectorXd acceleration = (after.velocity - before.velocity) / step;
+    Eigen::VectorXd missing = system.mass.cwiseProduct(acceleration + settings.initialise_damping * rate);
+    missing += system.support_damping.selfadjointView<Eigen::Lower>() * rate;
+    missing += system.stiffness_damping * (system.rail_stiffness.selfadjointView<Eigen::Lower>() * rate).eval();
+    Eigen::VectorXd load = system.weight - system.cells.transpose() * output.force_used;
+    track.band().add_load(track.band().at(wheel.start), -wheel.static_load, load);
+    EXPECT_TRUE(near_rel(track.residual(), missing.cwiseAbs().sum() / load.cwiseAbs().sum(), 1e-6)) << window;
+    EXPECT_GT(track.residual(), 1e-4);
+  }
+}
+
 TEST(Energy, free_vibration_without_damping_conserves) {
   auto settings = short_track();
   settings.loss_factor = 0.0, settings.end_dashpot_frequency = 0.0;
