@@ -1,7 +1,9 @@
 // The bytes on the wire, as every participant ever built against protocol 1 writes and reads them.
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "proto/wire/codec.hpp"
 #include "tests/support/sample_messages.hpp"

@@ -266,7 +266,7 @@ TEST(Engine, UnbalancedRatioIsNewtonsLawOverTheContactForce) {
     const double contact = force + mass * 9.81;
     if (contact < 0.01 * mass * 9.81) continue;  // in the air
     ++n_touching;
-    ASSERT_TRUE(near_rel(engine.unbalanced_ratio(state), std::abs(force) / contact, 1e-9)) << look;
+    ASSERT_TRUE(near_abs(engine.unbalanced_ratio(state), std::abs(force) / contact, 1e-12)) << look;
   }
   EXPECT_GT(n_touching, 100);
 }

@@ -109,7 +109,7 @@ class CoupledRun {
   /// True once windows are being run.
   bool await_march() const { return await_log("marching"); }
 
-  /// Processes that the run left: those whose command line names its folder.
+  /// Running processes of the run: those whose command line names its folder.
   int n_processes() const { return count_processes(folder_.path()); }
 
  private:
