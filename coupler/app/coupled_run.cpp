@@ -134,7 +134,8 @@ void CoupledRun::set_up() {
   summary_.facts.insert(summary_.facts.end(), fem_configured.facts.begin(), fem_configured.facts.end());
   summary_.largest_step_s = configured.largest_step_s.value_or(0.0);
   summary_.sub_cycles = sub_cycles_for(input_.coupling.window_s, configured.largest_step_s);
-  scheme_.emplace(input_.coupling.scheme, input_.coupling.window_s, summary_.sub_cycles, laws_);
+  initialise_step_s_ =
+      configured.largest_initialise_step_s ? configured.largest_initialise_step_s : configured.largest_step_s;
   summary_.wall.start_up = seconds_since(begin_);
   waited_in_start_up_s_ = supervisor_.waited_s();
   log_.info("configured: {} sub-cycles, largest step {} s", summary_.sub_cycles, summary_.largest_step_s);
@@ -149,15 +150,17 @@ void CoupledRun::initialise() {
   const auto& limits = input_.coupling.initialise;
   if (limits.max_windows == 0) return;
   RestWatch watch(limits);
-  Progress progress("relaxing", limits.max_windows, input_.coupling.window_s);
+  Progress progress("relaxing", limits.max_windows, limits.window_s);
+  WindowScheme scheme(input_.coupling.scheme, limits.window_s, sub_cycles_for(limits.window_s, initialise_step_s_),
+                      laws_);
   bool at_rest = false;
   for (int n = 0; !at_rest && n < limits.max_windows; ++n) {
     supervisor_.set_stage(fmt::format("initialise window {}", n));
-    const auto record = scheme_->advance(proto::Phase::initialise, n, {fem_, qdem_});
+    const auto record = scheme.advance(proto::Phase::initialise, n, {fem_, qdem_});
     fem_.commit({n});
     qdem_.commit({n});
     account(record);
-    const auto forces = seat_forces(record, input_.seats, input_.coupling.window_s);
+    const auto forces = seat_forces(record, input_.seats, limits.window_s);
     at_rest = watch.add({forces, record.explicit_residual, record.implicit_residual});
     summary_.initialise_windows = n + 1;
     summary_.rest = watch.figures();
@@ -183,6 +186,7 @@ void CoupledRun::take_initial_values() {
   const InterfaceState initial{rail.data.get(field::rail_displacement), rail.data.get(field::rail_velocity),
                                sleeper.data.get(field::sleeper_displacement),
                                sleeper.data.get(field::sleeper_velocity)};
+  scheme_.emplace(input_.coupling.scheme, input_.coupling.window_s, summary_.sub_cycles, laws_);
   scheme_->start(initial);
   auto attributes = proto::provenance("coupler", input_.file.name(), input_.file.hash(), input_.file.text());
   attributes.emplace_back("scheme", std::string(name_of(input_.coupling.scheme)));

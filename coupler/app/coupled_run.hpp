@@ -65,7 +65,8 @@ class CoupledRun {
   RemoteSide qdem_, fem_;
   Audit audit_;
   std::vector<proto::PadLaw> laws_;
-  std::optional<WindowScheme> scheme_;
+  std::optional<double> initialise_step_s_;  ///< of the explicit side
+  std::optional<WindowScheme> scheme_;       ///< of the march
   std::optional<CouplingRecord> record_;
   std::chrono::steady_clock::time_point begin_;
   double waited_in_start_up_s_ = 0.0;

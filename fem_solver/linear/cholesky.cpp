@@ -2,61 +2,17 @@
 
 #include <cholmod.h>
 
-#include <Eigen/Dense>
+#include <optional>
 
+#include "fem_solver/linear/supernodal_solve.hpp"
 #include "proto/error.hpp"
 
 namespace fem {
 namespace {
 
-using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-
-// CHOLMOD's supernodal factor: supernode s holds the columns super[s] .. super[s+1] as one dense block whose rows are
-// s[pi[s]] .. s[pi[s+1]]; the first of them are the block's own columns.
-struct Supernodes {
-  explicit Supernodes(const cholmod_factor& f)
-      : count(static_cast<int>(f.nsuper)),
-        first(static_cast<const int*>(f.super)),
-        row_begin(static_cast<const int*>(f.pi)),
-        value_begin(static_cast<const int*>(f.px)),
-        rows(static_cast<const int*>(f.s)),
-        values(static_cast<const double*>(f.x)) {}
-  int n_columns(int s) const { return first[s + 1] - first[s]; }
-  int n_rows(int s) const { return row_begin[s + 1] - row_begin[s]; }
-  Block block(int s) const {
-    return {values + value_begin[s], n_rows(s), n_columns(s), Eigen::OuterStride<>(n_rows(s))};
-  }
-  const int* lower_rows(int s) const { return rows + row_begin[s] + n_columns(s); }
-
-  int count;
-  const int *first, *row_begin, *value_begin, *rows;
-  const double* values;
-};
-
-// L y = y, then L' y = y in place. Eigen's kernels run at memory speed, the reference BLAS under cholmod_solve does
-// not.
-template <class Columns>
-void solve_factor(const Supernodes& nodes, Columns& y) {
-  Eigen::MatrixXd below;
-  for (int s = 0; s < nodes.count; ++s) {
-    const int n = nodes.n_columns(s), m = nodes.n_rows(s) - n;
-    const Block block = nodes.block(s);
-    auto own = y.middleRows(nodes.first[s], n);
-    block.topRows(n).template triangularView<Eigen::Lower>().solveInPlace(own);
-    below.noalias() = block.bottomRows(m) * own;
-    const int* rows = nodes.lower_rows(s);
-    for (int i = 0; i < m; ++i) y.row(rows[i]) -= below.row(i);
-  }
-  for (int s = nodes.count - 1; s >= 0; --s) {
-    const int n = nodes.n_columns(s), m = nodes.n_rows(s) - n;
-    const Block block = nodes.block(s);
-    below.resize(m, y.cols());
-    const int* rows = nodes.lower_rows(s);
-    for (int i = 0; i < m; ++i) below.row(i) = y.row(rows[i]);
-    auto own = y.middleRows(nodes.first[s], n);
-    own.noalias() -= block.bottomRows(m).transpose() * below;
-    block.topRows(n).transpose().template triangularView<Eigen::Upper>().solveInPlace(own);
-  }
+Supernodes supernodes_of(const cholmod_factor& f) {
+  return {static_cast<int>(f.nsuper),         static_cast<const int*>(f.super), static_cast<const int*>(f.pi),
+          static_cast<const int*>(f.px), static_cast<const int*>(f.s),     static_cast<const double*>(f.x)};
 }
 
 }  // namespace
@@ -64,6 +20,7 @@ void solve_factor(const Supernodes& nodes, Columns& y) {
 struct Cholesky::Data {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
+  std::optional<SupernodalSolve> triangular;
 
   Data() { cholmod_start(&common); }
   ~Data() {
@@ -76,7 +33,7 @@ struct Cholesky::Data {
     const int* permutation = static_cast<const int*>(factor->Perm);
     Columns y(right.rows(), right.cols());
     for (Eigen::Index i = 0; i < right.rows(); ++i) y.row(i) = right.row(permutation[i]);
-    solve_factor(Supernodes(*factor), y);
+    (*triangular)(y);
     Columns x(right.rows(), right.cols());
     for (Eigen::Index i = 0; i < right.rows(); ++i) x.row(permutation[i]) = y.row(i);
     return x;
@@ -113,6 +70,7 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower, const std::string& 
         proto::ExitCode::os_error,
         "the matrix of the " + name + " cannot be factorised (CHOLMOD status " + std::to_string(common.status) + ")",
         "[fem]", "if memory is short, raise element_length_m or lower n_bays");
+  data_->triangular.emplace(supernodes_of(*data_->factor));
 }
 
 Cholesky::~Cholesky() = default;

@@ -134,7 +134,7 @@ proto::FieldSet FemParticipant::advance(const proto::Advance& request, proto::Pr
     // The first relaxation begins from the static state on the sleeper as it stands.
     if (!relaxed_ && !input.prescribed) track_->rest(input.sleeper_displacement);
     relaxed_ = true;
-    output = track_->relax(input);
+    output = track_->relax(input, request.window_s);
   }
   progress.bump();
   force_used_ = output.force_used;

@@ -43,8 +43,9 @@ void WheelTrack::set_rest(const Eigen::VectorXd& displacement) {
   state_.wheel_velocity = 0.0;
 }
 
-WindowOutput WheelTrack::relax(const WindowInput& input) {
-  if (!relax_) relax_ = std::make_unique<Stepper>(system_, step_, initialise_damping_);
+WindowOutput WheelTrack::relax(const WindowInput& input, double step) {
+  if (!relax_ || relax_->newmark.step() != step)
+    relax_ = std::make_unique<Stepper>(system_, step, initialise_damping_);
   const TrackState before = state_.track;
   WindowOutput output = advance(*relax_, input, Wheel::standing);
   residual_ = static_residual(before, output.force_used);
@@ -109,7 +110,7 @@ WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Whe
   InterfaceProblem p;
   if (!input.prescribed) p.laws = laws_;
   const auto n = static_cast<Eigen::Index>(p.laws.size());
-  p.time_factor = step_ / 2;
+  p.time_factor = stepper.newmark.step() / 2;
   p.carry = p.gap_0 = p.free_velocity = p.sleeper_velocity = p.contact_column = Eigen::VectorXd::Zero(n);
   if (n > 0) {
     p.carry = input.carry;

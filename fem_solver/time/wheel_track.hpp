@@ -53,7 +53,8 @@ class WheelTrack {
   void rest(const Eigen::VectorXd& sleeper_displacement);
 
   /// One window with the wheel standing at its start under its static load and mass-proportional damping on.
-  WindowOutput relax(const WindowInput& input);
+  /// `step`: length of this window, which need not be that of the march [s].
+  WindowOutput relax(const WindowInput& input, double step);
 
   /// How far the last relax() was from static equilibrium: what its window means leave to inertia and damping,
   /// load - K u = M a + C v, over the load of weight, wheel and pads; both as the sum of the sizes of the nodal forces,

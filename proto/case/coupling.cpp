@@ -26,8 +26,9 @@ ParticipantSpec read_participant(const Section& section, const std::string& name
   return spec;
 }
 
-Initialise read_initialise(const Section& section) {
+Initialise read_initialise(const Section& section, double window_s) {
   Initialise result;
+  result.window_s = section.number_or("window_s", window_s, Range::positive());
   const auto count = [&](const char* key, int fallback, double lowest) {
     return static_cast<int>(section.integer_or(key, fallback, Range::between(lowest, 1e9)));
   };
@@ -59,7 +60,7 @@ Coupling read_coupling(const CaseFile& file) {
   coupling.stall_timeout_s = section.number_or("stall_timeout_s", coupling.stall_timeout_s, Range::positive());
   coupling.qdem = read_participant(section, "qdem");
   coupling.fem = read_participant(section, "fem");
-  coupling.initialise = read_initialise(section.section("initialise"));
+  coupling.initialise = read_initialise(section.section("initialise"), coupling.window_s);
   section.finish();
   return coupling;
 }

@@ -19,7 +19,8 @@ struct ParticipantSpec {
 
 /// `[coupling.initialise]`: coupled relaxation before time 0, and what counts as rest.
 struct Initialise {
-  int max_windows = 0;  ///< 0: no initialise phase
+  double window_s = 0.0;  ///< of this phase
+  int max_windows = 0;    ///< 0: no initialise phase
   int min_windows = 0;
   int check_windows = 40;             ///< over which all of the following must hold
   double tolerance = 1e-3;            ///< change of the seat force, relative to the larger of itself and force_floor
@@ -42,7 +43,7 @@ struct Coupling {
 /// Reads `[coupling]`:
 ///   scheme "R1"|"E1", window_s, duration_s (a whole number of windows), output_interval_s, connect_timeout_s,
 ///   stall_timeout_s, qdem_command [..] (default ["qdem_solver", "participant"]), fem_command [..] (default
-///   ["fem_solver", "participant"]); [coupling.initialise] max_windows, min_windows, check_windows, tolerance,
+///   ["fem_solver", "participant"]); [coupling.initialise] window_s (default: coupling.window_s), max_windows, min_windows, check_windows, tolerance,
 ///   force_floor_n, qdem_residual_limit, fem_residual_limit.
 Coupling read_coupling(const CaseFile& file);
 

@@ -123,7 +123,8 @@ Configure read(const fbs::Configure& m) {
 }
 Configured read(const fbs::Configured& m) {
   if (m.largest_step_s()) finite(*m.largest_step_s(), "largest_step_s");
-  return {m.largest_step_s(), facts(m.facts())};
+  if (m.largest_initialise_step_s()) finite(*m.largest_initialise_step_s(), "largest_initialise_step_s");
+  return {m.largest_step_s(), facts(m.facts()), m.largest_initialise_step_s()};
 }
 Start read(const fbs::Start&) {
   return {};

@@ -93,7 +93,11 @@ struct Configure {
   std::vector<double> stiffness, damping, preload;  ///< pad per interface value, as the pad's owner registered it
   std::vector<bool> tension_cutoff;
 };
-struct Configured { std::optional<double> largest_step_s; std::vector<Fact> facts; };
+struct Configured {
+  std::optional<double> largest_step_s;  ///< of an explicit solver [s]
+  std::vector<Fact> facts;
+  std::optional<double> largest_initialise_step_s = {};  ///< of the initialise phase, if it is another [s]
+};
 
 struct Start {};
 struct Advance {

@@ -17,7 +17,6 @@ using Eigen::Vector3d;
 
 constexpr double step_safety = 0.8;
 constexpr int touching_points = 10;       // of a stone while it may fall on others, for the step and the inertia
-constexpr int resting_points = 3;         // of a stone that rests; who touches more is made heavier
 constexpr int steps_per_fit = 50;        // inertia is fitted to the contacts anew
 constexpr int steps_per_look = 25;
 constexpr double pouring_skin = 0.08;     // candidate lists live longer while stones move [d50]
@@ -31,8 +30,7 @@ constexpr double heaved_share = 0.95;     // of the sleeper's weight; drag would
 constexpr double settling_damping = 0.5, resting_damping = 0.7;  // Cundall's
 constexpr double share_of_limits = 0.5;   // rest is better than the case asks for
 constexpr double settling_time = 2.0;     // [s], at most
-constexpr double calm_kinetic = 2e-4;     // [J], and
-constexpr double calm_unbalanced = 2e-3;  // [-], before the bed is made harder
+constexpr double calm_speed = 1e-3;       // [m/s], root mean square over the mass, before the bed is made harder
 constexpr int steps_at_true_masses = 500, true_steps = 4000;
 constexpr unsigned held_along_track = 1u;
 
@@ -53,7 +51,7 @@ void Builder::soften(const Softness& softness) {
   model_.contact = physics_.contact;
   model_.contact.normal_stiffness = softness.stiffness;
   model_.contact.friction = softness.friction;
-  if (share < 1) model_.contact.skin = pouring_skin * settings_.gradation.size_at(0.5);
+  if (falling_) model_.contact.skin = pouring_skin * settings_.gradation.size_at(0.5);
   model_.contact.damping_ratio = std::max(softness.damping_ratio, physics_.contact.damping_ratio);
   model_.local_damping = softness.local_damping;
   model_.drag_per_s = softness.drag;
@@ -91,12 +89,12 @@ void Builder::march(Engine& engine, double dt, const Duration& duration, const R
     engine.advance(state_, dt, steps_per_look);
     if (look && look(state_.time - start)) break;
     if (state_.time - start < duration.least) continue;
-    const double kinetic = engine.energies(state_).kinetic;
+    const double kinetic = engine.kinetic_energy(state_);
     const bool slow = rest.speed > 0 && std::sqrt(2 * kinetic / mass) < rest.speed;
     const bool still = rest.kinetic > 0 && kinetic < rest.kinetic && engine.unbalanced_ratio(state_) < rest.unbalanced;
     if (slow || still) break;
   }
-  report_.kinetic_energy = engine.energies(state_).kinetic;
+  report_.kinetic_energy = engine.kinetic_energy(state_);
   report_.unbalanced_force_ratio = engine.unbalanced_ratio(state_);
   const ContactReport contacts = engine.contacts().report(state_);
   report_.coordination_number = contacts.coordination_number;
@@ -163,7 +161,7 @@ void Builder::settle() {
   soften(at_level(settling_level()));
   run({parting_time, parting_time});
   model_.drag_per_s = rolling_drag;
-  run({0, settling_time}, {0.0, calm_unbalanced, calm_kinetic});
+  run({0, settling_time}, {calm_speed});
 }
 
 void Builder::harden() {

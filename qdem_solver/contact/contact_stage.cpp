@@ -3,6 +3,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "proto/error.hpp"
@@ -41,8 +42,8 @@ struct ContactStage::Data {
   std::uint64_t list_id = 0;
   std::vector<EntryForce> forces;
   std::vector<unsigned char> live;
-  std::vector<double> wake;  ///< age of the list before which an entry cannot touch [m]
-  double last_age = 0.0;
+  std::vector<double> wake;  ///< sum of both sides' travel below which an entry cannot touch [m]
+  double last_travel = 0.0;
   std::int64_t last_step = -1;
   std::vector<std::int64_t> first_of_body;   ///< CSR over keys: entries whose body_a it is
   std::vector<std::int64_t> second_offsets;  ///< CSR: entries whose body_b it is
@@ -52,11 +53,23 @@ struct ContactStage::Data {
 
   double reach() const { return 2 * model.contact.rounding + skin; }
 
+  double plane_travel(const State& state, const Plane& plane) const {
+    return plane.velocity.norm() * std::abs(state.time - state.contact.rebuild_time);
+  }
+
   /// Bound of how far any node or plane moved since the rebuild [m].
-  double age(const State& state) const {
-    double speed = 0.0;
-    for (const Plane& plane : model.planes) speed = std::max(speed, plane.velocity.norm());
-    return state.contact.travel + speed * std::abs(state.time - state.contact.rebuild_time);
+  double farthest(const State& state) const {
+    double travel = 0.0;
+    for (const double of_body : state.contact.travel) travel = std::max(travel, of_body);
+    for (const Plane& plane : model.planes) travel = std::max(travel, plane_travel(state, plane));
+    return travel;
+  }
+
+  /// Bound of how far the two sides of an entry moved against each other since the rebuild [m].
+  double travel_of(const State& state, const ContactKey& key) const {
+    const double other =
+        key.is_plane() ? plane_travel(state, model.planes[~key.body_b]) : state.contact.travel[key.body_b];
+    return state.contact.travel[key.body_a] + other;
   }
 
   void fit_scratch(const ContactState& contact) {
@@ -84,13 +97,12 @@ struct ContactStage::Data {
     list_id = contact.list_id;
   }
 
-  /// The wake ages hold along one motion only: a state from elsewhere, such as a restored one, clears them.
-  double follow(const State& state) {
-    const double now = age(state);
-    const bool continues = now >= last_age && (state.step == last_step || state.step == last_step + 1);
+  /// The wake travels hold along one motion only: a state from elsewhere, such as a restored one, clears them.
+  void follow(const State& state) {
+    const double travel = std::accumulate(state.contact.travel.begin(), state.contact.travel.end(), 0.0);
+    const bool continues = travel >= last_travel && (state.step == last_step || state.step == last_step + 1);
     if (!continues) std::fill(wake.begin(), wake.end(), 0.0);
-    last_age = now, last_step = state.step;
-    return now;
+    last_travel = travel, last_step = state.step;
   }
 
   EntryForce push(const State& state, std::size_t i, double dt, Eigen::Vector3d& slip) const {
@@ -116,11 +128,12 @@ ContactStage::ContactStage(const Model& model) {
 }
 ContactStage::~ContactStage() = default;
 
-bool ContactStage::update_candidates(State& state, double travel) {
+bool ContactStage::update_candidates(State& state, const std::vector<double>& moves) {
   Data& d = *data_;
   ContactState& contact = state.contact;
-  contact.travel += travel;
-  if (contact.list_id != 0 && d.age(state) <= d.skin / 2) {
+  contact.travel.resize(d.skins.size(), 0.0);
+  for (std::size_t b = 0; b < moves.size(); ++b) contact.travel[b] += moves[b];
+  if (contact.list_id != 0 && d.farthest(state) <= d.skin / 2) {
     d.fit_scratch(contact);
     return false;
   }
@@ -129,11 +142,11 @@ bool ContactStage::update_candidates(State& state, double travel) {
   contact.keys = std::move(list.keys);
   contact.triangle_offsets = std::move(list.triangle_offsets);
   contact.triangles = std::move(list.triangles);
-  contact.travel = 0.0;
+  std::fill(contact.travel.begin(), contact.travel.end(), 0.0);
   contact.rebuild_time = state.time;
   ++contact.rebuilds;
   contact.list_id = list_hash(contact);
-  d.list_id = 0;  // an equal list of an earlier time has other wake ages
+  d.list_id = 0;  // an equal list of an earlier time has other wake travels
   d.fit_scratch(contact);
   return true;
 }
@@ -142,18 +155,19 @@ void ContactStage::compute(State& state, double dt) {
   Data& d = *data_;
   ContactState& contact = state.contact;
   d.fit_scratch(contact);
-  const double age = d.follow(state);
+  d.follow(state);
   const auto n = static_cast<std::int64_t>(contact.keys.size());
 #pragma omp parallel for schedule(dynamic, 256)
   for (std::int64_t i = 0; i < n; ++i) {
     d.live[i] = 0;
-    if (age < d.wake[i]) continue;
+    const double travel = d.travel_of(state, contact.keys[i]);
+    if (travel < d.wake[i]) continue;
     EntryForce force = d.push(state, i, dt, contact.slip[i]);
     if (force.live) {
       d.forces[i] = force;
       d.live[i] = 1;
     } else {
-      d.wake[i] = age + force.gap / 2;  // both sides move
+      d.wake[i] = travel + force.gap;
     }
   }
 }

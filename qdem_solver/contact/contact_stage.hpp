@@ -34,9 +34,10 @@ class ContactStage {
   explicit ContactStage(const Model& model);
   ~ContactStage();
 
-  /// Adds `travel` [m], an upper bound of how far any node moved since the last call, to the list's age; rebuilds the
-  /// candidate list when the age exceeds half the skin. Returns whether it rebuilt. Slip of surviving keys is kept.
-  bool update_candidates(State& state, double travel);
+  /// Takes `moves` [m], of each body an upper bound of how far any of its nodes moved since the last call (empty: none
+  /// did); rebuilds the candidate list when a body or plane has moved by more than half the skin. Returns whether it
+  /// rebuilt. Slip of surviving keys is kept.
+  bool update_candidates(State& state, const std::vector<double>& moves = {});
 
   /// Forces of all contacts at positions state.x and velocities state.v; advances the slip by dt [s]. Runs with the
   /// calling program's OpenMP threads.

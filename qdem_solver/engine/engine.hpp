@@ -59,11 +59,12 @@ class Engine {
   /// of no use.
   void advance(State& state, double dt, std::int64_t n_steps);
 
-  /// The same with the rail foot driven; the inertia of the pad body must be true. The pad forces of the state's own time
-  /// level are brought to the new rail velocity before the first step.
+  /// The same with the rail foot driven. The pad forces of the state's own time level are brought to the new rail
+  /// velocity before the first step, except while relaxing.
   PadSums advance(State& state, double dt, std::int64_t n_steps, const PadDrive& drive);
 
   Energies energies(const State& state) const;
+  double kinetic_energy(const State& state) const;  ///< alone, which is cheaper [J]
   /// Largest speed of any particle [m/s].
   double largest_speed(const State& state) const;
   /// Sum over bodies of |resultant force| over the sum of |contact force| on particles, at the last step's contact

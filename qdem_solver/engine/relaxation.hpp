@@ -10,6 +10,10 @@
 
 namespace qdem {
 
+/// Contact points of a stone in a bed near rest: few, so that stones with little support, which are the last to find
+/// their place, keep their true inertia. Those with more are made heavier.
+inline constexpr int resting_points = 3;
+
 /// Step that a stone of mean mass with `n_contacts` contact points takes at `safety` of its bound as a rigid body [s].
 ///
 /// Stones of rock are a hundred times stiffer than their contacts, and so limit the true step to a small part of this.

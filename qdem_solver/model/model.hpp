@@ -47,7 +47,8 @@ struct Template {
   std::vector<Edge> edges;
   std::vector<int> surface_nodes;                     ///< ascending
   std::vector<int> adjacency_offsets, adjacency_slots;///< CSR: node -> 4 * tet + corner, ascending
-  double volume() const;
+  double whole_volume = 0.0;                          ///< [m3]
+  double volume() const { return whole_volume; }
   int n_nodes() const { return static_cast<int>(nodes.size()); }
   int n_tets() const { return static_cast<int>(tets.size()); }
 };

@@ -151,16 +151,13 @@ void add_adjacency(Template& shape) {
 
 }  // namespace
 
-double Template::volume() const {
-  return std::accumulate(volumes.begin(), volumes.end(), 0.0);
-}
-
 Template make_template(std::string name, std::vector<Eigen::Vector3d> nodes, std::vector<std::array<int, 4>> tets,
                        double sharp_angle_deg) {
   Template shape;
   shape.name = std::move(name), shape.nodes = std::move(nodes), shape.tets = std::move(tets);
   check_node_numbers(shape);
   add_gradients_and_volumes(shape);
+  shape.whole_volume = std::accumulate(shape.volumes.begin(), shape.volumes.end(), 0.0);
   refuse_bad_tets(shape);
   add_skin(shape);
   add_edges(shape, sharp_angle_deg);

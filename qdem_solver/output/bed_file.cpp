@@ -127,7 +127,8 @@ void put_state(Hdf5Store& file, const State& state) {
   file.put("state/contact/triangle_offsets", offsets);
   file.put("state/contact/triangles", triangles);
   file.put("state/contact/slip", slip, "m");
-  file.put("state/contact/travel_and_rebuild_time", Reals{contact.travel, contact.rebuild_time}, "m, s");
+  file.put("state/contact/travel", contact.travel, "m");
+  file.put("state/contact/rebuild_time", Reals{contact.rebuild_time}, "s");
   file.put("state/contact/rebuilds_and_list_id", Integers{contact.rebuilds, static_cast<long long>(contact.list_id)});
 }
 
@@ -142,12 +143,14 @@ void take_state(const Hdf5Store& file, const Model& model, State& state) {
   }
   contact.triangle_offsets.assign(offsets.begin(), offsets.end());
   contact.triangles.assign(triangles.begin(), triangles.end());
-  const Reals slip = file.reals("state/contact/slip"), ages = file.reals("state/contact/travel_and_rebuild_time");
+  const Reals slip = file.reals("state/contact/slip");
   for (std::size_t i = 0; i + 2 < slip.size(); i += 3) contact.slip.push_back(triple(slip, i));
-  contact.travel = ages.at(0), contact.rebuild_time = ages.at(1);
+  contact.travel = file.reals("state/contact/travel");
+  contact.rebuild_time = file.reals("state/contact/rebuild_time").at(0);
   contact.rebuilds = counts.at(0), contact.list_id = static_cast<std::uint64_t>(counts.at(1));
   const auto n = static_cast<std::size_t>(model.n_values);
   if (state.x.size() != n || state.v.size() != n || state.a.size() != n || contact.slip.size() != contact.keys.size() ||
+      contact.travel.size() != model.bodies.size() ||
       contact.triangle_offsets.size() != contact.keys.size() + 1) {
     throw proto::Error(proto::ExitCode::bad_data, "the arrays of the bed do not fit each other");
   }

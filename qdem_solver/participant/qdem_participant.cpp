@@ -15,6 +15,10 @@ namespace qdem {
 
 namespace field = proto::field;
 
+/// Of the last relaxation at true masses, with the rail held: many periods of the stones' own modes, which the scaled
+/// inertia had slowed [s].
+constexpr double release_time_s = 2e-3;
+
 QdemParticipant::QdemParticipant(proto::CaseFile file, BedSource source, std::string name, std::string out)
     : file_(std::move(file)), source_(std::move(source)), name_(std::move(name)), out_(std::move(out)) {
   check_case(file_);
@@ -37,7 +41,6 @@ proto::Interface QdemParticipant::describe() {
   bed_ = std::make_unique<TrackBed>(file_, source_, [this] {
     if (progress_ != nullptr) progress_->bump();
   });
-  bed_->set_local_damping(bed_->settings().initialise_damping);
   proto::Interface interface;
   for (const char* name : {field::rail_displacement_begin, field::rail_displacement}) {
     interface.fields.push_back({name, "m", 3, false});
@@ -56,7 +59,7 @@ proto::Interface QdemParticipant::describe() {
 proto::Configured QdemParticipant::configure(const proto::Configure& request) {
   window_s_ = request.window_s;
   if (!request.output_directory.empty()) out_ = request.output_directory;
-  return {bed_->largest_step(), bed_->facts()};
+  return {bed_->largest_step(), bed_->facts(), bed_->relaxation_step()};
 }
 
 proto::FieldSet QdemParticipant::values(PadSums sums) const {
@@ -68,17 +71,28 @@ proto::FieldSet QdemParticipant::values(PadSums sums) const {
   return data;
 }
 
-proto::FieldSet QdemParticipant::advance(const proto::Advance& request, proto::Progress&) {
+void QdemParticipant::begin_window(const proto::Advance& request) {
+  const bool relaxing = request.phase == proto::Phase::initialise;
   const double dt = request.window_s / request.sub_cycles;
-  if (dt > bed_->largest_step() * (1 + 1e-9)) {
+  const double largest = relaxing ? bed_->relaxation_step() : bed_->largest_step();
+  if (dt > largest * (1 + 1e-9)) {
     throw proto::Error(proto::ExitCode::protocol,
                        fmt::format("{} sub-cycles make a step of {:.4g} s, the largest stable one is {:.4g} s",
-                                   request.sub_cycles, dt, bed_->largest_step()),
+                                   request.sub_cycles, dt, largest),
                        fmt::format("window {}", request.window), "see Configured.largest_step_s in proto/README.md");
   }
+  if (relaxing && !relaxing_) bed_->relax();
+  relaxing_ = relaxing;
   before_window_ = bed_->state();
+  if (relaxing) bed_->fit_inertia();
+}
+
+proto::FieldSet QdemParticipant::advance(const proto::Advance& request, proto::Progress&) {
+  begin_window(request);
+  const double dt = request.window_s / request.sub_cycles;
   const auto& begin = request.data.get(field::rail_displacement_begin);
   const auto& end = request.data.get(field::rail_displacement);
+  rail_foot_ = end;
   return values(bed_->engine().advance(bed_->state(), dt, request.sub_cycles, {begin, end}));
 }
 
@@ -105,7 +119,7 @@ void QdemParticipant::rollback(const proto::Rollback&) {
 }
 
 proto::FieldSet QdemParticipant::start() {
-  bed_->set_local_damping(0.0);
+  if (relaxing_) bed_->release(release_time_s, rail_foot_);
   bed_->reset_clock();
   marching_ = true;
   if (output_interval_ > 0) {

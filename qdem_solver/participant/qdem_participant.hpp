@@ -38,6 +38,7 @@ class QdemParticipant : public proto::Participant {
 
  private:
   proto::FieldSet values(PadSums sums) const;
+  void begin_window(const proto::Advance& request);
   bool output_is_due(std::int64_t window) const;
 
   proto::CaseFile file_;
@@ -48,7 +49,8 @@ class QdemParticipant : public proto::Participant {
   std::unique_ptr<FieldsFile> fields_;
   State before_window_;
   double window_s_ = 0.0, output_interval_ = 0.0;
-  bool marching_ = false;
+  std::vector<double> rail_foot_;  ///< at the end of the last window
+  bool relaxing_ = false, marching_ = false;
 };
 
 }  // namespace qdem

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <cmath>
+
 #include "proto/error.hpp"
 #include "proto/result/provenance.hpp"
 #include "qdem_solver/model/pad_cells.hpp"
@@ -26,6 +28,7 @@ TrackBed::TrackBed(const proto::CaseFile& file, const BedSource& source, std::fu
   engine_ = std::make_unique<Engine>(bed_.model, EngineOptions{settings_.threads, std::move(on_step)});
   engine_->set_pad_reference(rest_.x);
   engine_->prepare(bed_.state);
+  relaxation_.emplace(bed_.model, resting_points, settings_.step_safety);
   find_step(file);
 }
 
@@ -42,9 +45,17 @@ void TrackBed::find_step(const proto::CaseFile& file) {
   largest_step_ = std::min(largest_step_, settings_.largest_step);
 }
 
-void TrackBed::set_local_damping(double value) {
-  bed_.model.local_damping = value;
-  bed_.model.inertia.assign(value > 0 ? bed_.model.bodies.size() : 0, Inertia{});
+void TrackBed::relax() {
+  bed_.model.local_damping = settings_.initialise_damping;
+  relaxation_->begin(*engine_, bed_.state);
+}
+
+void TrackBed::release(double duration, const std::vector<double>& rail_foot) {
+  bed_.model.inertia.assign(bed_.model.bodies.size(), Inertia{});
+  const auto n_steps = static_cast<std::int64_t>(std::ceil(duration / largest_step_));
+  engine_->advance(bed_.state, largest_step_, n_steps, {rail_foot, rail_foot});
+  bed_.model.inertia.clear();
+  bed_.model.local_damping = 0;
 }
 
 void TrackBed::reset_clock() {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "proto/wire/messages.hpp"
 #include "qdem_solver/bed/bed.hpp"
 #include "qdem_solver/engine/engine.hpp"
+#include "qdem_solver/engine/relaxation.hpp"
 #include "qdem_solver/engine/stability.hpp"
 #include "qdem_solver/participant/qdem_case.hpp"
 
@@ -36,9 +38,14 @@ class TrackBed {
   State& state() { return bed_.state; }
   Engine& engine() { return *engine_; }
   double largest_step() const { return largest_step_; }  ///< safety included [s]
+  double relaxation_step() const { return relaxation_->step(); }  ///< the same while relaxing [s]
 
-  /// Cundall's damping from now on, of rigid motion and deformation apart; 0 in the march.
-  void set_local_damping(double value);
+  /// From now on bodies are relaxed: Cundall's damping, and inertia that makes relaxation_step() stable.
+  void relax();
+  /// Fits that inertia to the contacts of now.
+  void fit_inertia() { relaxation_->fit(*engine_, bed_.state); }
+  /// Ends it: `duration` [s] more with the damping but at true masses, the rail foot held at `rail_foot`; then without.
+  void release(double duration, const std::vector<double>& rail_foot);
   /// Sets step and time to 0; motion and contact history stay.
   void reset_clock();
 
@@ -59,6 +66,7 @@ class TrackBed {
   Bed bed_;
   State rest_;
   std::unique_ptr<Engine> engine_;
+  std::optional<Relaxation> relaxation_;
   StabilityReport stability_;
   double largest_step_ = 0.0;
 };

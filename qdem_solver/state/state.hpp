@@ -33,7 +33,7 @@ struct ContactState {
   std::vector<int> triangle_offsets;          ///< CSR of candidate triangles (vertex-surface entries only)
   std::vector<int> triangles;
   std::vector<Eigen::Vector3d> slip;          ///< tangential spring elongation u_t of each key [m]
-  double travel = 0.0;                        ///< bound of any node's movement since the last rebuild [m]
+  std::vector<double> travel;                 ///< of each body: bound of any node's movement since the last rebuild [m]
   std::int64_t rebuilds = 0;
   double rebuild_time = 0.0;                  ///< State::time of the last rebuild; moving planes travel since then [s]
   std::uint64_t list_id = 0;                  ///< hash of keys and triangles: tells the stage whether its scratch fits

@@ -46,7 +46,7 @@ inline auto tied(const Configure& m) {
                   m.tension_cutoff);
 }
 inline auto tied(const Configured& m) {
-  return std::tie(m.largest_step_s, m.facts);
+  return std::tie(m.largest_step_s, m.facts, m.largest_initialise_step_s);
 }
 inline auto tied(const Start&) {
   return std::tuple<>();

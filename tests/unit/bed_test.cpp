@@ -195,7 +195,7 @@ qdem::Bed two_cubes(const qdem::BedPhysics& physics) {
   bed.state = make_state(bed.model, {{}, {Eigen::Matrix3d::Identity(), {0.01, 0, 0.096}}});
   for (std::size_t i = 0; i < bed.state.v.size(); ++i) bed.state.v[i] = 1e-3 * std::sin(double(i));
   qdem::ContactStage stage(bed.model);
-  stage.update_candidates(bed.state, 0.0);
+  stage.update_candidates(bed.state);
   stage.compute(bed.state, 1e-6);
   bed.report.hash = "0123456789abcdef", bed.report.stones = 1, bed.report.porosity_layer = 0.41;
   bed.report.notes = {"a note", "another"};

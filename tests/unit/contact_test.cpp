@@ -98,7 +98,7 @@ TEST(ContactStage, ConservesMomentumAndAngularMomentum) {
   std::mt19937_64 random(4);
   qdem::State state = strewn(model, random, 0.07, 1.0);
   qdem::ContactStage stage(model);
-  stage.update_candidates(state, 0);
+  stage.update_candidates(state);
   for (int i = 0; i < 3; ++i) stage.compute(state, 1e-5);
   const auto report = stage.report(state);
   EXPECT_GT(report.live, 100);
@@ -171,7 +171,7 @@ TEST(ContactStage, DegeneratePairsGiveFiniteForces) {
   for (const Vector3d& shift : shifts) {
     qdem::State state = make_state(model, {qdem::Placement{}, {Eigen::Matrix3d::Identity(), shift}});
     qdem::ContactStage stage(model);
-    stage.update_candidates(state, 0);
+    stage.update_candidates(state);
     stage.compute(state, 1e-5);
     const auto sum = resultant(model, state, stage);
     EXPECT_TRUE(std::isfinite(sum.size));
@@ -191,7 +191,7 @@ TEST(ContactStage, ThreadsDoNotChangeAByte) {
     std::mt19937_64 random(6);
     qdem::State state = strewn(model, random, 0.1, 1.0);
     qdem::ContactStage stage(model);
-    stage.update_candidates(state, 0);
+    stage.update_candidates(state);
     for (int i = 0; i < 3; ++i) stage.compute(state, 1e-5);
     forces[run].assign(state.x.size(), 0.0);
     for (std::size_t b = 0; b < model.bodies.size(); ++b) stage.gather(static_cast<int>(b), forces[run]);
@@ -201,16 +201,21 @@ TEST(ContactStage, ThreadsDoNotChangeAByte) {
   EXPECT_EQ(std::memcmp(forces[0].data(), forces[1].data(), forces[0].size() * sizeof(double)), 0);
 }
 
+/// Every body moved by so much [m].
+std::vector<double> moved_by(const qdem::Model& model, double distance) {
+  return std::vector<double>(model.bodies.size(), distance);
+}
+
 TEST(ContactStage, SlipSurvivesARebuild) {
   const qdem::Model model = model_of_boxes(30);
   std::mt19937_64 random(7);
   qdem::State state = strewn(model, random, 0.07, 1.0);
   qdem::ContactStage stage(model);
-  stage.update_candidates(state, 0);
+  stage.update_candidates(state);
   stage.compute(state, 1e-5);
   const auto before = state.contact;
-  EXPECT_FALSE(stage.update_candidates(state, 0.4e-3));  // under half the skin of 1 mm
-  EXPECT_TRUE(stage.update_candidates(state, 0.2e-3));
+  EXPECT_FALSE(stage.update_candidates(state, moved_by(model, 0.4e-3)));  // under half the skin of 1 mm
+  EXPECT_TRUE(stage.update_candidates(state, moved_by(model, 0.2e-3)));
   EXPECT_EQ(state.contact.rebuilds, before.rebuilds + 1);
   EXPECT_TRUE(state.contact.keys == before.keys);  // nothing moved
   double size = 0;
@@ -230,14 +235,14 @@ TEST(ContactStage, ARestoredStateIsComputedAfresh) {
   };
   qdem::State state = state_at(touching - 0.1e-3);
   qdem::ContactStage stage(model);
-  stage.update_candidates(state, 0);
+  stage.update_candidates(state);
   qdem::State moved = state;
   moved.x = state_at(touching + 0.3e-3).x;
-  stage.update_candidates(moved, 0.4e-3);
+  stage.update_candidates(moved, moved_by(model, 0.4e-3));
   moved.step += 1;
   stage.compute(moved, 1e-5);
   EXPECT_EQ(stage.report(moved).live, 0);
-  stage.update_candidates(state, 0.0);  // back to the snapshot, whose contacts were apart in the meantime
+  stage.update_candidates(state);  // back to the snapshot, whose contacts were apart in the meantime
   stage.compute(state, 1e-5);
   EXPECT_GT(stage.report(state).live, 0);
 }
@@ -253,7 +258,7 @@ TEST(ContactStage, APlaneCarriesABoxAtItsSignedDistance) {
   for (double& v : state.v) v = 0;
   for (int i = 0; i < model.shape(0).n_nodes(); ++i) qdem::State::scatter(model, state.v, 0, i, {0, 0, 0.01});
   qdem::ContactStage stage(model);
-  stage.update_candidates(state, 0);
+  stage.update_candidates(state);
   stage.compute(state, 1e-5);
   const auto sum = resultant(model, state, stage);
   EXPECT_TRUE(near_rel(sum.force[2], 9 * 1e6 * overlap, 1e-9));  // nine nodes of the lower face

@@ -144,13 +144,13 @@ TEST(Residual, is_inertia_and_damping_over_the_load) {
   input.sleeper_displacement = Eigen::VectorXd::Constant(n, -2e-4);
   input.sleeper_velocity = input.carry = Eigen::VectorXd::Zero(n);
   track.rest(input.sleeper_displacement);
-  track.relax(input);
+  track.relax(input, step);
   EXPECT_TRUE(near_abs(track.residual(), 0.0, 1e-8)) << "the static state is at rest";
 
   input.sleeper_displacement.setConstant(-3e-4);  // the sleeper is pulled away: rail and supports begin to move
   for (int window = 0; window < 3; ++window) {
     const fem::TrackState before = track.state().track;
-    const auto output = track.relax(input);
+    const auto output = track.relax(input, step);
     const fem::TrackState after = track.state().track;
     const Eigen::VectorXd rate = (before.velocity + after.velocity) / 2;
     const Eigen::VectorXd acceleration = (after.velocity - before.velocity) / step;

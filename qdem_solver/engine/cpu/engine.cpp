@@ -15,13 +15,6 @@ using cpu::Task;
 using cpu::TaskKind;
 using proto::Span;
 
-namespace {
-
-/// Values that one thread moves at a time in the drift.
-constexpr std::int64_t drift_chunk = 16384;
-
-}  // namespace
-
 Engine::Data::Data(const Model& the_model, EngineOptions the_options)
     : model(the_model),
       options(std::move(the_options)),
@@ -31,6 +24,7 @@ Engine::Data::Data(const Model& the_model, EngineOptions the_options)
       inverse_mass(cpu::inverse_masses(model)),
       free_motions(cpu::free_motions(model)),
       force(model.n_values, 0.0),
+      moves(model.bodies.size(), 0.0),
       slots(tasks.n_slot_values, 0.0),
       contact(model),
       pads(model) {}
@@ -46,20 +40,22 @@ void Engine::set_pad_reference(std::vector<double> reference) {
   data_->pad_reference = std::move(reference);
 }
 
-double Engine::Data::drift(State& state, double dt) {
-  const std::int64_t n_chunks = (model.n_values + drift_chunk - 1) / drift_chunk;
-  double largest = 0.0;
+void Engine::Data::drift(State& state, double dt) {
+  const auto n_batches = static_cast<std::int64_t>(model.batches.size());
   bool finite = true;
-#pragma omp parallel for schedule(static) num_threads(n_threads) reduction(max : largest) reduction(&& : finite)
-  for (std::int64_t chunk = 0; chunk < n_chunks; ++chunk) {
-    const std::int64_t first = chunk * drift_chunk;
-    const std::int64_t n = std::min(drift_chunk, model.n_values - first);
-    const auto moved = kernels.drift({dt, n, &state.x[first], &state.v[first], &state.a[first]});
-    largest = std::max(largest, moved.largest_move);
+#pragma omp parallel for schedule(static) num_threads(n_threads) reduction(&& : finite)
+  for (std::int64_t b = 0; b < n_batches; ++b) {
+    const Batch& batch = model.batches[b];
+    const int n = 3 * model.templates[batch.template_id].n_nodes();
+    const auto at = batch.offset;
+    const auto moved = kernels.drift({dt, batch.lanes, n, &state.x[at], &state.v[at], &state.a[at]});
     finite = finite && std::isfinite(moved.sum);
+    for (int lane = 0; lane < batch.lanes; ++lane) {
+      // sqrt(3): of a value to that of a node
+      if (batch.bodies[lane] >= 0) moves[batch.bodies[lane]] = std::sqrt(3.0) * moved.largest_move[lane];
+    }
   }
   if (!finite) report_blow_up(state);
-  return std::sqrt(3.0) * largest;  // of a value to that of a node
 }
 
 void Engine::Data::kick(State& state, const Batch& batch, int first, int last, double dt) {
@@ -153,8 +149,8 @@ void Engine::Data::run_outer(const Task& task, Span<const double> pad_force) {
 
 void Engine::Data::begin_step(State& state, double dt, double time) {
   state.time = time;
-  const double move = drift(state, dt);
-  contact.update_candidates(state, move);
+  drift(state, dt);
+  contact.update_candidates(state, moves);
   contact.compute(state, dt);
 }
 
@@ -223,8 +219,7 @@ void Engine::Data::add_pad_change(State& state, Span<const double> new_force) {
 
 void Engine::prepare(State& state) {
   omp_set_num_threads(data_->n_threads);
-  constexpr double farther_than_any_skin = 1e30;
-  data_->contact.update_candidates(state, state.contact.rebuilds == 0 ? farther_than_any_skin : 0.0);
+  data_->contact.update_candidates(state);
   data_->contact.compute(state, 0.0);
   state.pad_force.assign(data_->pads.n_values(), 0.0);
   data_->end_step(state, 0.0, state.pad_force);
@@ -251,7 +246,7 @@ PadSums Engine::advance(State& state, double dt, std::int64_t n_steps, const Pad
   PadSums sums{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
   std::vector<double> rate(n), u(drive.begin.begin(), drive.begin.end()), next_u(n);
   for (std::size_t i = 0; i < n; ++i) rate[i] = (drive.end[i] - drive.begin[i]) / (dt * static_cast<double>(n_steps));
-  d.add_pad_change(state, d.pad_forces(state, u, rate));
+  if (!d.relaxing()) d.add_pad_change(state, d.pad_forces(state, u, rate));
   const double start = state.time;
   for (std::int64_t j = 1; j <= n_steps; ++j) {
     d.begin_step(state, dt, start + static_cast<double>(j) * dt);

@@ -17,7 +17,7 @@ struct Engine::Data {
   /// All other forces and the second half of the kick.
   void end_step(State& state, double dt, proto::Span<const double> pad_force);
 
-  double drift(State& state, double dt);
+  void drift(State& state, double dt);
   void run(State& state, const cpu::Task& task, double dt, proto::Span<const double> pad_force);
   void run_outer(const cpu::Task& task, proto::Span<const double> pad_force);
   void kick(State& state, const Batch& batch, int first, int last, double dt);
@@ -40,6 +40,7 @@ struct Engine::Data {
   std::vector<double> inverse_mass;
   std::vector<double> free_motions;  ///< of every body, 6 each (cpu::free_motions)
   std::vector<double> force;
+  std::vector<double> moves;  ///< of each body in the last drift [m]
   std::vector<double> slots;  ///< element forces of single bodies
   ContactStage contact;
   PadOperator pads;

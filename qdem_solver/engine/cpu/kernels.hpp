@@ -39,17 +39,18 @@ struct SingleForces {
   double* slots;  ///< [n_tets][corner][component]: every element writes its own, nothing is added
 };
 
-/// x += dt (v + dt/2 a), v += dt a over `n` values.
+/// x += dt (v + dt/2 a), v += dt a over `n` rows of `lanes` values.
 struct Drift {
   double dt;
-  std::int64_t n;
+  int lanes;
+  int n;
   double* x;
   double* v;
   const double* a;
 };
 struct DriftResult {
-  double largest_move;  ///< of one value [m]
-  double sum;           ///< of all |moves|: not finite when any of them is not
+  double largest_move[8];  ///< of one value of each lane [m]
+  double sum;              ///< of all |moves|: not finite when any of them is not
 };
 
 /// a_new = force / m + gravity, damped; v += dt/2 (a_new - a); a = a_new, over `n_nodes` nodes of `lanes` lanes.

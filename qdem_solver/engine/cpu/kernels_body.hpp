@@ -80,18 +80,37 @@ void single_forces(const SingleForces& job) {
   }
 }
 
+inline double drift_value(const Drift& job, std::int64_t i) {
+  const double move = job.dt * (job.v[i] + 0.5 * job.dt * job.a[i]);
+  job.x[i] += move;
+  job.v[i] += job.dt * job.a[i];
+  return move < 0 ? -move : move;
+}
+
 DriftResult drift(const Drift& job) {
-  double largest = 0.0, sum = 0.0;
+  DriftResult result{};
+  if (job.lanes == 1) {
+    double largest = 0.0, sum = 0.0;
 #pragma omp simd reduction(max : largest) reduction(+ : sum)
-  for (std::int64_t i = 0; i < job.n; ++i) {
-    const double move = job.dt * (job.v[i] + 0.5 * job.dt * job.a[i]);
-    job.x[i] += move;
-    job.v[i] += job.dt * job.a[i];
-    const double size = move < 0 ? -move : move;
-    largest = size > largest ? size : largest;
-    sum += size;
+    for (int i = 0; i < job.n; ++i) {
+      const double size = drift_value(job, i);
+      largest = size > largest ? size : largest;
+      sum += size;
+    }
+    result.largest_move[0] = largest, result.sum = sum;
+    return result;
   }
-  return {largest, sum};
+  double sums[lanes] = {};
+  for (int row = 0; row < job.n; ++row) {
+#pragma omp simd
+    for (int l = 0; l < lanes; ++l) {
+      const double size = drift_value(job, std::int64_t{row} * lanes + l);
+      result.largest_move[l] = size > result.largest_move[l] ? size : result.largest_move[l];
+      sums[l] += size;
+    }
+  }
+  for (int l = 0; l < lanes; ++l) result.sum += sums[l];
+  return result;
 }
 
 /// One component of one node over its lanes.

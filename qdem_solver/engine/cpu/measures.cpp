@@ -23,7 +23,7 @@ double strain_energy(const Model& model, const State& state, int body) {
   return sum;
 }
 
-double kinetic_energy(const Model& model, const State& state, int body) {
+double kinetic_energy_of(const Model& model, const State& state, int body) {
   double sum = 0.0;
   for (int node = 0; node < model.shape(body).n_nodes(); ++node) {
     sum += 0.5 * model.node_mass(body, node) * state.velocity(model, body, node).squaredNorm();
@@ -39,10 +39,19 @@ Energies Engine::energies(const State& state) const {
   std::vector<Energies> parts(n);
 #pragma omp parallel for schedule(dynamic, 8) num_threads(data_->n_threads)
   for (int body = 0; body < n; ++body) {
-    parts[body] = {kinetic_energy(model, state, body), strain_energy(model, state, body)};
+    parts[body] = {kinetic_energy_of(model, state, body), strain_energy(model, state, body)};
   }
   Energies sum;
   for (const Energies& part : parts) sum.kinetic += part.kinetic, sum.strain += part.strain;
+  return sum;
+}
+
+double Engine::kinetic_energy(const State& state) const {
+  const Model& model = data_->model;
+  double sum = 0.0;
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
+    sum += kinetic_energy_of(model, state, body);
+  }
   return sum;
 }
 
