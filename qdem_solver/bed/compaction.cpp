@@ -204,7 +204,6 @@ void Builder::ramp_load(double from, double to) {
 void Builder::come_to_rest() {
   const Settings& s = settings_;
   const Rest rest{0.0, share_of_limits * s.unbalanced_limit, share_of_limits * s.kinetic_limit};
-  hold_sleeper(0u);  // along the track and upright the rail holds it later; here its bed does
   run_steps(s.rest_steps, rest);
   model_.drag_per_s = 0;
   run_with_true_masses(steps_at_true_masses, true_steps, rest);

@@ -43,6 +43,7 @@ void Builder::finish() {
   const Settings& s = settings_;
   model_.local_damping = 0, model_.drag_per_s = 0;
   model_.contact = physics_.contact;
+  hold_sleeper(0u);  // the rail holds it upright from now on
   const TopFace top = top_face(model_, state_);
   report_.sleeper_shift = top.shift[0];
   report_.sleeper_tilt = top.pitch;

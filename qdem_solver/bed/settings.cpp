@@ -72,8 +72,8 @@ void read_procedure(const Section& bed, Settings& s) {
   s.ramp_levels = static_cast<int>(bed.integer_or("ramp_levels", 8, Range::between(1, 50)));
   s.ramp_steps = static_cast<int>(bed.integer_or("ramp_steps", 300, Range::between(10, 1e6)));
   s.preload = bed.number_or("preload_n", 40e3, Range::not_negative());
-  s.preload_cycles = static_cast<int>(bed.integer_or("preload_cycles", 3, Range::between(0, 1e4)));
-  s.preload_steps = static_cast<int>(bed.integer_or("preload_steps", 1500, Range::between(10, 1e6)));
+  s.preload_cycles = static_cast<int>(bed.integer_or("preload_cycles", 2, Range::between(0, 1e4)));
+  s.preload_steps = static_cast<int>(bed.integer_or("preload_steps", 2500, Range::between(10, 1e6)));
   s.rest_steps = static_cast<int>(bed.integer_or("rest_steps", 100000, Range::between(10, 1e7)));
 }
 
