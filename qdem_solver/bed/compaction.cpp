@@ -27,7 +27,7 @@ constexpr double settling_drag = 30;      // [1/s]
 constexpr double rolling_drag = 5;        // [1/s], while stones of the shoulder roll down
 constexpr double hardening_drag = 1.0;    // of the rattling frequency of a mean stone on one contact
 constexpr double heaved_share = 0.95;     // of the sleeper's weight; drag would keep a heavy sleeper down
-constexpr double settling_damping = 0.5, resting_damping = 0.7;  // Cundall's
+constexpr double settling_damping = 0.5, resting_damping = 0.5;  // Cundall's
 constexpr double share_of_limits = 0.5;   // rest is better than the case asks for
 constexpr double settling_time = 2.0;     // [s], at most
 constexpr double calm_speed = 1e-3;       // [m/s], root mean square over the mass, before the bed is made harder

@@ -12,7 +12,7 @@ namespace qdem {
 
 /// Contact points of a stone in a bed near rest: few, so that stones with little support, which are the last to find
 /// their place, keep their true inertia. Those with more are made heavier.
-inline constexpr int resting_points = 3;
+inline constexpr int resting_points = 1;
 
 /// Step that a stone of mean mass with `n_contacts` contact points takes at `safety` of its bound as a rigid body [s].
 ///
