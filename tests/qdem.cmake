@@ -5,6 +5,7 @@ house_test(qdem_time_step convergence SOURCES convergence/qdem_time_step.cpp LIB
 house_test(qdem_vibration verification SOURCES verification/qdem_vibration.cpp LIBRARIES qdem::engine)
 house_test(qdem_engine_whole integration SOURCES integration/qdem_engine.cpp LIBRARIES qdem::engine)
 house_test(qdem_incline verification SOURCES verification/qdem_incline.cpp LIBRARIES qdem::engine)
+house_test(qdem_relaxation verification SOURCES verification/qdem_relaxation.cpp LIBRARIES qdem::engine)
 # Threads that wait by spinning stand in each other's way where other tests run at the same time.
 set_tests_properties(qdem_engine_whole PROPERTIES ENVIRONMENT OMP_WAIT_POLICY=passive)
 house_test(qdem_rates bench SOURCES bench/qdem_rates.cpp LIBRARIES qdem::engine)

@@ -1,5 +1,6 @@
 // qdem_solver: ballast and sleeper, as a participant or alone.
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -81,6 +82,7 @@ void limit_spinning(char** argv) {
 
 int main(int argc, char** argv) {
   limit_spinning(argv);
+  spdlog::set_pattern("%v");  // whoever keeps the log knows the time
   try {
     return run(argc, argv);
   } catch (const proto::Error& error) {

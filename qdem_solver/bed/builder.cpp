@@ -164,6 +164,7 @@ double Builder::mass_of_stones() const {
 }
 
 void Builder::pour_layer() {
+  stage_ = "pouring the layer";
   const Settings& s = settings_;
   const double half = s.spacing / 2, gap = 2 * physics_.contact.rounding;
   add_planes();
@@ -178,6 +179,7 @@ void Builder::pour_layer() {
   add_stones(layer_, {{-half + gap, half - gap, gap, s.wall() - gap}}, s.ground_level() + gap);
   const double fall = (top_of_stones() - s.ground_level()) / s.pour_speed;
   run({0.4 * fall, 2 * fall}, {poured_speed});
+  stage_ = "tamping the layer";
   sleeper_bottom_ = tamp(-s.sleeper_height, layer_pressure);
 }
 
@@ -190,6 +192,7 @@ void Builder::pour_crib() {
     State::scatter(model_, state_.v, sleeper, i, Vector3d::Zero());
   }
   if (crib_.empty()) return;
+  stage_ = "pouring crib and shoulder";
   const double side = s.sleeper_width / 2 + gap, end = s.half_length() + gap;
   const std::vector<Rectangle> floor = {
       {-half + gap, -side, gap, end}, {side, half - gap, gap, end}, {-half + gap, half - gap, end, s.wall() - gap}};
@@ -197,6 +200,7 @@ void Builder::pour_crib() {
   drop_contacts();
   const double fall = (top_of_stones() + s.sleeper_height) / s.pour_speed;
   run({0.4 * fall, 2 * fall}, {poured_speed});
+  stage_ = "tamping crib and shoulder";
   tamp(sleeper_bottom_ + s.crib_height, crib_pressure);
 }
 

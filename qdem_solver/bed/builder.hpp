@@ -84,6 +84,7 @@ class Builder {
   const BedPhysics& physics_;
   Random random_;
   std::vector<Stone> layer_, crib_;
+  const char* stage_ = "";       ///< for the log
   bool falling_ = true;          ///< stones may still fall on others
   double loaded_height_ = 0.0;   ///< of the seat under the last preload [m]
   double sleeper_bottom_ = 0.0;  ///< where the tamped layer ends, before the last shift [m]

@@ -30,6 +30,7 @@ constexpr double heaved_share = 0.95;     // of the sleeper's weight; drag would
 constexpr double settling_damping = 0.5, resting_damping = 0.5;  // Cundall's
 constexpr double share_of_limits = 0.5;   // rest is better than the case asks for
 constexpr double settling_time = 2.0;     // [s], at most
+constexpr double telling_interval = 5;    // [s] of work
 constexpr double calm_speed = 1e-3;       // [m/s], root mean square over the mass, before the bed is made harder
 constexpr int steps_at_true_masses = 500, true_steps = 4000;
 constexpr unsigned held_along_track = 1u;
@@ -83,11 +84,17 @@ void Builder::run_with_true_masses(int least_steps, int most_steps, const Rest& 
 
 void Builder::march(Engine& engine, double dt, const Duration& duration, const Rest& rest, const Look& look) {
   const auto clock = std::chrono::steady_clock::now();
+  auto told = clock;
   const auto first_step = state_.step;
   const double start = state_.time, mass = mass_of_stones();
   while (state_.time - start < duration.most) {
     engine.advance(state_, dt, steps_per_look);
     if (look && look(state_.time - start)) break;
+    if (seconds_since(told) > telling_interval) {
+      told = std::chrono::steady_clock::now();
+      spdlog::info("bed: {}, {} steps, unbalanced force {:.1e}, kinetic energy {:.1e} J", stage_,
+                   state_.step - first_step, engine.unbalanced_ratio(state_), engine.kinetic_energy(state_));
+    }
     if (state_.time - start < duration.least) continue;
     const double kinetic = engine.kinetic_energy(state_);
     const bool slow = rest.speed > 0 && std::sqrt(2 * kinetic / mass) < rest.speed;
@@ -100,11 +107,10 @@ void Builder::march(Engine& engine, double dt, const Duration& duration, const R
   report_.coordination_number = contacts.coordination_number;
   report_.largest_penetration = contacts.largest_penetration;
   spdlog::info(
-      "bed: {:.3f} s in {} steps of {:.2f} us ({:.1f} s of work), kinetic energy {:.2e} J, unbalanced {:.1e}, "
-      "penetration {:.3f} mm, {} contacts of {} candidates, coordination {:.2f}, top {:.3f} m, seat {:.3f} mm",
-      state_.time - start, state_.step - first_step, 1e6 * dt, seconds_since(clock), report_.kinetic_energy,
-      report_.unbalanced_force_ratio, 1e3 * report_.largest_penetration, contacts.live, contacts.candidates,
-      contacts.coordination_number, top_of_stones(), 1e3 * seat_height());
+      "bed: {}: {:.3f} s in {} steps of {:.2f} us ({:.1f} s of work), unbalanced force {:.1e}, kinetic energy {:.1e} J, "
+      "{} contacts, penetration {:.3f} mm",
+      stage_, state_.time - start, state_.step - first_step, 1e6 * dt, seconds_since(clock),
+      report_.unbalanced_force_ratio, report_.kinetic_energy, contacts.live, 1e3 * report_.largest_penetration);
 }
 
 double Builder::tamp(double level, double pressure) {
@@ -155,7 +161,7 @@ Builder::Softness Builder::at_level(int level) const {
 }
 
 void Builder::settle() {
-  falling_ = false;
+  stage_ = "settling", falling_ = false;
   hold_sleeper(held_along_track);
   drop_contacts();
   soften(at_level(settling_level()));
@@ -165,6 +171,7 @@ void Builder::settle() {
 }
 
 void Builder::harden() {
+  stage_ = "hardening";
   model_.pad_body_load[2] = heaved_share * sleeper_weight();
   for (int level = settling_level() + 1; level <= settings_.ramp_levels; ++level) {
     Softness softness = at_level(level);
@@ -176,6 +183,7 @@ void Builder::harden() {
 }
 
 void Builder::consolidate() {
+  stage_ = "consolidating";
   const Settings& s = settings_;
   Softness real = at_level(s.ramp_levels);
   real.local_damping = resting_damping, real.drag = 0;
@@ -202,6 +210,7 @@ void Builder::ramp_load(double from, double to) {
 }
 
 void Builder::come_to_rest() {
+  stage_ = "coming to rest";
   const Settings& s = settings_;
   const Rest rest{0.0, share_of_limits * s.unbalanced_limit, share_of_limits * s.kinetic_limit};
   run_steps(s.rest_steps, rest);

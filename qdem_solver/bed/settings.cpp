@@ -81,7 +81,7 @@ void read_limits(const Section& bed, Settings& s) {
   const auto porosity = read_range(bed, "porosity_limits", {0.38, 0.45}, share);
   s.porosity_lowest = porosity.lowest, s.porosity_highest = porosity.highest;
   s.unbalanced_limit = bed.number_or("unbalanced_limit", 1e-5, Range::positive());
-  s.kinetic_limit = bed.number_or("kinetic_energy_limit_j", 1e-9, Range::positive());
+  s.kinetic_limit = bed.number_or("kinetic_energy_limit_j", 1e-6, Range::positive());
   s.penetration_limit = bed.number_or("penetration_limit_m", 0, Range::not_negative());
   s.tilt_limit = bed.number_or("sleeper_tilt_limit_rad", 5e-3, Range::positive());
 }

@@ -113,7 +113,7 @@ Candidate best_mesh(const std::string& name, const Polyhedron& stone, const Ston
       Template shape = mesh_polyhedron(name, stone, size);
       least_seen = std::min(least_seen, shape.n_tets()), most_seen = std::max(most_seen, shape.n_tets());
       if (shape.n_tets() < wanted.least_tets || shape.n_tets() > wanted.most_tets) continue;
-      if (lightest_corner(shape) < 0.0025) continue;  // its contact would rule the step
+      if (lightest_corner(shape) < 0.005) continue;  // its contact would rule the step
       ++n_good;
       const double step = step_of_unit_rock(shape);
       if (step > best.step) best.step = step, best.shape = std::move(shape);
@@ -206,7 +206,7 @@ Template mesh_polyhedron(const std::string& name, const Polyhedron& shape, doubl
 StoneTemplates make_stone_templates(const StoneShapes& wanted) {
   StoneTemplates result;
   std::vector<Candidate> candidates;
-  const int n_candidates = 2 * wanted.n_templates + 4;
+  const int n_candidates = 3 * wanted.n_templates + 4;
   for (int i = 0; i < n_candidates; ++i) {
     Random random(wanted.seed, 500 + i);
     const double elongation = random.uniform(wanted.elongation.lowest, wanted.elongation.highest);

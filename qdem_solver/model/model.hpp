@@ -128,8 +128,8 @@ struct Model {
   double local_damping = 0.0;           ///< Cundall's non-viscous damping, only while relaxing [-]
   double drag_per_s = 0.0;              ///< mass-proportional drag, only while pouring [1/s]
   Eigen::Vector3d pad_body_load{0, 0, 0};  ///< on the pad body, spread as its mass is [N]
-  std::vector<Inertia> inertia;         ///< of each body, only while relaxing: local_damping then acts on rigid motion
-                                        ///< and deformation apart. Empty: true masses, damping particle by particle
+  std::vector<Inertia> inertia;         ///< of each body, only while relaxing: local_damping then acts on rigid motion,
+                                        ///< a drag on deformation. Empty: true masses, damping particle by particle
 
   /// Index of component 0 of a body's node in the state arrays; component c lies `stride(body)` values further.
   std::int64_t index(int body, int node) const {

@@ -22,7 +22,7 @@ struct Engine::Data {
   void run_outer(const cpu::Task& task, proto::Span<const double> pad_force);
   void kick(State& state, const Batch& batch, int first, int last, double dt);
   bool relaxing() const { return !model.inertia.empty(); }
-  void scale_inertia(const State& state, const Batch& batch);
+  void scale_inertia(const State& state, const Batch& batch, double dt);
   void add_load(const Batch& batch);
 
   /// Exchanges the pad forces that state.a holds for others at the same time level.

@@ -258,15 +258,14 @@ inline double damped(double acceleration, double velocity, double share) {
 
 void scale_inertia(const ScaleInertia& job) {
   const int n = job.lanes;
-  const double share = job.local_damping;
   RigidFit fit;
   fit_translation(job, n, fit);
   fit_rotation(job, n, fit);
   Row linear[3], angular[3];
   for (int c = 0; c < 3; ++c) {
     for (int l = 0; l < n; ++l) {
-      linear[c].at[l] = job.rigid[l] * damped(fit.linear[c].at[l], fit.velocity[c].at[l], share);
-      angular[c].at[l] = job.rigid[l] * damped(fit.angular[c].at[l], fit.spin[c].at[l], share);
+      linear[c].at[l] = job.rigid[l] * damped(fit.linear[c].at[l], fit.velocity[c].at[l], job.local_damping);
+      angular[c].at[l] = job.rigid[l] * damped(fit.angular[c].at[l], fit.spin[c].at[l], job.local_damping);
     }
   }
   for (int node = 0; node < job.n_nodes; ++node) {
@@ -282,7 +281,7 @@ void scale_inertia(const ScaleInertia& job) {
         const double stiff = fit.linear[c].at[l] + fit.angular[i].at[l] * r[k] - fit.angular[k].at[l] * r[i];
         const double drift = fit.velocity[c].at[l] + fit.spin[i].at[l] * r[k] - fit.spin[k].at[l] * r[i];
         const double moved = linear[c].at[l] + angular[i].at[l] * r[k] - angular[k].at[l] * r[i];
-        const double bent = job.deformation[l] * damped(whole - stiff, job.v[here] - drift, share);
+        const double bent = job.deformation[l] * (whole - stiff) - job.deformation_drag * (job.v[here] - drift);
         job.force[here] = m * (moved + bent - job.gravity[c]);
       }
     }
