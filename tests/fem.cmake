@@ -1,5 +1,6 @@
 # Tests of fem.
 house_test(fem_contact unit SOURCES unit/fem_contact.cpp LIBRARIES fem::track)
+house_test(fem_cholesky unit SOURCES unit/fem_cholesky.cpp LIBRARIES fem::linear)
 house_test(fem_interface_operator unit SOURCES unit/fem_interface_operator.cpp LIBRARIES fem::track)
 house_test(fem_elasticity verification SOURCES verification/fem_elasticity.cpp LIBRARIES fem::track)
 house_test(fem_static_beam verification SOURCES verification/fem_static_beam.cpp LIBRARIES fem::track)

@@ -11,7 +11,7 @@ namespace fem {
 namespace {
 
 Supernodes supernodes_of(const cholmod_factor& f) {
-  return {static_cast<int>(f.nsuper),         static_cast<const int*>(f.super), static_cast<const int*>(f.pi),
+  return {static_cast<int>(f.nsuper),    static_cast<const int*>(f.super), static_cast<const int*>(f.pi),
           static_cast<const int*>(f.px), static_cast<const int*>(f.s),     static_cast<const double*>(f.x)};
 }
 

@@ -8,7 +8,7 @@
 namespace fem {
 namespace {
 
-constexpr double largest_share = 0.1;  // of the factor in one subtree, so that two branches can be balanced
+constexpr double largest_share = 0.1;    // of the factor in one subtree, so that two branches can be balanced
 constexpr double smallest_factor = 2e5;  // entries; below it a second thread costs more than it saves
 
 std::vector<int> parents(const Supernodes& f) {

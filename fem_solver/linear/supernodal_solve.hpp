@@ -7,8 +7,9 @@
 
 namespace fem {
 
-/// A factor L as CHOLMOD stores it: supernode s holds the columns first[s] .. first[s+1] as one dense block whose rows are
-/// rows[row_begin[s]] .. rows[row_begin[s+1]]; the first of them are the block's own columns. Refers to, does not own.
+/// A factor L as CHOLMOD stores it: supernode s holds the columns first[s] .. first[s+1] as one dense block whose rows
+/// are rows[row_begin[s]] .. rows[row_begin[s+1]]; the first of them are the block's own columns. Refers to, does not
+/// own.
 struct Supernodes {
   using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
@@ -27,8 +28,8 @@ struct Supernodes {
 
 /// Solves L L' y = y in place. A solve reads the whole factor twice, at the speed of memory, and one core does not draw
 /// all of it: the tree is cut into two branches without common unknowns, for a thread each, and the trunk above them.
-/// The cut depends on the factor alone and every sum has a fixed order, so the result does too. (The reference BLAS under
-/// cholmod_solve does not reach the speed of memory; Eigen's kernels do.)
+/// The cut depends on the factor alone and every sum has a fixed order, so the result does too. (The reference BLAS
+/// under cholmod_solve does not reach the speed of memory; Eigen's kernels do.)
 class SupernodalSolve {
  public:
   explicit SupernodalSolve(const Supernodes& factor);

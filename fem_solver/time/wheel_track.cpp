@@ -44,8 +44,7 @@ void WheelTrack::set_rest(const Eigen::VectorXd& displacement) {
 }
 
 WindowOutput WheelTrack::relax(const WindowInput& input, double step) {
-  if (!relax_ || relax_->newmark.step() != step)
-    relax_ = std::make_unique<Stepper>(system_, step, initialise_damping_);
+  if (!relax_ || relax_->newmark.step() != step) relax_ = std::make_unique<Stepper>(system_, step, initialise_damping_);
   const TrackState before = state_.track;
   WindowOutput output = advance(*relax_, input, Wheel::standing);
   residual_ = static_residual(before, output.force_used);

@@ -61,8 +61,8 @@ class Participant {
   virtual FieldSet advance(const Advance& request, Progress& progress) = 0;
 
   /// How far the state just advanced to is from static equilibrium: size of the out-of-balance force over the size of
-  /// the forces that should balance, at least 0 [-]. Asked for in the initialise phase only; the coupler ends the run of
-  /// a solver that offers initialise and gives none.
+  /// the forces that should balance, at least 0 [-]. Asked for in the initialise phase only; the coupler ends the run
+  /// of a solver that offers initialise and gives none.
   virtual std::optional<double> residual();
 
   /// The window just advanced is final; write output here.

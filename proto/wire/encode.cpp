@@ -32,7 +32,9 @@ class BodyWriter {
     return fbs::CreateConfigure(b_, m.window_s, m.windows, static_cast<fbs::LoadMode>(m.mode), text(m.output_directory),
                                 numbers(m.stiffness), numbers(m.damping), numbers(m.preload), flags(m.tension_cutoff));
   }
-  auto operator()(const Configured& m) { return fbs::CreateConfigured(b_, m.largest_step_s, facts(m.facts), m.largest_initialise_step_s); }
+  auto operator()(const Configured& m) {
+    return fbs::CreateConfigured(b_, m.largest_step_s, facts(m.facts), m.largest_initialise_step_s);
+  }
   auto operator()(const Start&) { return fbs::CreateStart(b_); }
   auto operator()(const Advance& m) {
     return fbs::CreateAdvance(b_, phase(m.phase), m.window, m.iteration, m.window_s, m.sub_cycles, fields(m.data));

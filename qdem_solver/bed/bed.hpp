@@ -33,9 +33,9 @@ struct BedReport {
   double d50 = 0.0;                     ///< sieve size that half of the stones' mass passes [m]
   double elements_per_stone = 0.0;
   double sleeper_settlement = 0.0;  ///< downward move of the sleeper while the bed was consolidated [m]
-  double stiffness = 0.0;           ///< of the bed: preload over the sleeper's rise as the last one was taken away [N/m]
-  double sleeper_shift = 0.0;       ///< along the track, taken out by shifting the bed [m]
-  double sleeper_tilt = 0.0;        ///< pitch about the lateral axis that is left [rad]
+  double stiffness = 0.0;      ///< of the bed: preload over the sleeper's rise as the last one was taken away [N/m]
+  double sleeper_shift = 0.0;  ///< along the track, taken out by shifting the bed [m]
+  double sleeper_tilt = 0.0;   ///< pitch about the lateral axis that is left [rad]
   double build_wall_s = 0.0;
   std::string hash;                ///< of the inputs, 16 hexadecimal digits
   bool from_cache = false;         ///< not stored

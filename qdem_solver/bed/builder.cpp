@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int sleeper = 0;             // body number
-constexpr double poured_speed = 0.06;  // [m/s], below which a pouring is over
+constexpr int sleeper = 0;                                     // body number
+constexpr double poured_speed = 0.06;                          // [m/s], below which a pouring is over
 constexpr double layer_pressure = 4e3, crib_pressure = 1.5e3;  // [Pa], where tamping ends
 /// Volume of a template rounded by r: Steiner's formula, V + A r + M r^2 + 4 pi/3 r^3 with M half the sum of edge
 /// length times exterior angle.

@@ -60,7 +60,8 @@ class Builder {
   void drop_contacts();
   void drop_spare_lanes();
 
-  /// Relaxes (relaxation.hpp) for at least duration.least [s]; then ends early at rest, or any time when `look` says so.
+  /// Relaxes (relaxation.hpp) for at least duration.least [s]; then ends early at rest, or any time when `look` says
+  /// so.
   void run(const Duration& duration, const Rest& rest = {}, const Look& look = {});
   void run_steps(int most, const Rest& rest);
   void run_with_true_masses(int least_steps, int most_steps, const Rest& rest);

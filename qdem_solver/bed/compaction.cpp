@@ -16,23 +16,24 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double step_safety = 0.8;
-constexpr int touching_points = 10;       // of a stone while it may fall on others, for the step and the inertia
-constexpr int steps_per_fit = 50;        // inertia is fitted to the contacts anew
+constexpr int touching_points = 10;  // of a stone while it may fall on others, for the step and the inertia
+constexpr int steps_per_fit = 50;    // inertia is fitted to the contacts anew
 constexpr int steps_per_look = 25;
-constexpr double pouring_skin = 0.08;     // candidate lists live longer while stones move [d50]
-constexpr double tamping_speed = 0.2;     // [m/s]
-constexpr double tamped_speed = 0.02;     // [m/s], below which a tamped layer is at rest
-constexpr double parting_time = 0.1;      // [s], in which stones that overlap part
-constexpr double settling_drag = 30;      // [1/s]
-constexpr double rolling_drag = 5;        // [1/s], while stones of the shoulder roll down
-constexpr double hardening_drag = 1.0;    // of the rattling frequency of a mean stone on one contact
-constexpr double heaved_share = 0.95;     // of the sleeper's weight; drag would keep a heavy sleeper down
-constexpr double settling_damping = 0.5, resting_damping = 0.5;  // Cundall's
-constexpr double share_of_limits = 0.5;   // rest is better than the case asks for
-constexpr double settling_time = 2.0;     // [s], at most
-constexpr double telling_interval = 5;    // [s] of work
-constexpr double calm_speed = 1e-3;       // [m/s], root mean square over the mass, before the bed is made harder
-constexpr int steps_at_true_masses = 500, true_steps = 4000;
+constexpr int least_true_steps = 500, most_true_steps = 4000;  // at true masses, at the end
+
+constexpr double damping = 0.5;          // Cundall's
+constexpr double pouring_skin = 0.08;    // candidate lists live longer while stones move [d50]
+constexpr double tamping_speed = 0.2;    // [m/s]
+constexpr double tamped_speed = 0.02;    // [m/s], below which a tamped layer is at rest
+constexpr double parting_time = 0.1;     // [s], in which stones that overlap part
+constexpr double settling_time = 2.0;    // [s], at most
+constexpr double settling_drag = 30;     // [1/s]
+constexpr double rolling_drag = 5;       // [1/s], while stones of the shoulder roll down
+constexpr double calm_speed = 1e-3;      // [m/s], root mean square over the mass, before the bed is made harder
+constexpr double hardening_drag = 1.0;   // of the rattling frequency of a mean stone on one contact
+constexpr double heaved_share = 0.95;    // of the sleeper's weight; drag would keep a heavy sleeper down
+constexpr double share_of_limits = 0.5;  // rest is better than the case asks for
+constexpr double telling_interval = 5;   // [s] of work
 constexpr unsigned held_along_track = 1u;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -107,7 +108,8 @@ void Builder::march(Engine& engine, double dt, const Duration& duration, const R
   report_.coordination_number = contacts.coordination_number;
   report_.largest_penetration = contacts.largest_penetration;
   spdlog::info(
-      "bed: {}: {:.3f} s in {} steps of {:.2f} us ({:.1f} s of work), unbalanced force {:.1e}, kinetic energy {:.1e} J, "
+      "bed: {}: {:.3f} s in {} steps of {:.2f} us ({:.1f} s of work), unbalanced force {:.1e}, kinetic energy {:.1e} "
+      "J, "
       "{} contacts, penetration {:.3f} mm",
       stage_, state_.time - start, state_.step - first_step, 1e6 * dt, seconds_since(clock),
       report_.unbalanced_force_ratio, report_.kinetic_energy, contacts.live, 1e3 * report_.largest_penetration);
@@ -156,7 +158,7 @@ Builder::Softness Builder::at_level(int level) const {
           stiffness,
           physics_.contact.friction,
           0.3,
-          settling_damping,
+          damping,
           settling_drag};
 }
 
@@ -186,7 +188,7 @@ void Builder::consolidate() {
   stage_ = "consolidating";
   const Settings& s = settings_;
   Softness real = at_level(s.ramp_levels);
-  real.local_damping = resting_damping, real.drag = 0;
+  real.drag = 0;
   soften(real);
   const double start = seat_height();
   run_steps(s.preload_steps, {});
@@ -214,8 +216,7 @@ void Builder::come_to_rest() {
   const Settings& s = settings_;
   const Rest rest{0.0, share_of_limits * s.unbalanced_limit, share_of_limits * s.kinetic_limit};
   run_steps(s.rest_steps, rest);
-  model_.drag_per_s = 0;
-  run_with_true_masses(steps_at_true_masses, true_steps, rest);
+  run_with_true_masses(least_true_steps, most_true_steps, rest);
   report_.stiffness = s.preload_cycles > 0 ? s.preload / (seat_height() - loaded_height_) : 0.0;
 }
 

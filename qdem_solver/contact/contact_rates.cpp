@@ -11,8 +11,7 @@ namespace qdem {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
 
-ContactRateSums::ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const State& state,
-                                 double gap)
+ContactRateSums::ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const State& state, double gap)
     : skins_(skins),
       state_(state),
       model_(model),

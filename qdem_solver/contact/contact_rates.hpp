@@ -11,13 +11,12 @@ namespace qdem {
 /// Adds up the candidates of a list that are within `gap` of touching, every one taken as touching. Use once: add()
 /// every entry, then result().
 ///
-/// A contact of stiffness k between bodies a and b has the energy k/2 |J_a u_a - J_b u_b|^2 <= k (|J_a u_a|^2 + |J_b u_b|^2),
-/// so that twice its stiffness may be given to either body alone. For a rigid body J M^-1 J^T = 1/m + [r] I^-1 [r]^T, [r] the
-/// cross product with the point's arm; for particles, row sums bound it (Gershgorin).
+/// A contact of stiffness k between bodies a and b has the energy k/2 |J_a u_a - J_b u_b|^2 <= k (|J_a u_a|^2 + |J_b
+/// u_b|^2), so that twice its stiffness may be given to either body alone. For a rigid body J M^-1 J^T = 1/m + [r] I^-1
+/// [r]^T, [r] the cross product with the point's arm; for particles, row sums bound it (Gershgorin).
 class ContactRateSums {
  public:
-  ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const State& state,
-                  double gap);
+  ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const State& state, double gap);
   void add(std::size_t entry);
   std::vector<ContactRates> result() const;
 

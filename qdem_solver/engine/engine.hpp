@@ -43,8 +43,9 @@ struct Energies {
 /// the State is a snapshot, and a restored State continues with the same bytes.
 ///
 /// The Model must outlive the engine and keep its bodies, materials, contact law, pads and fixities. `gravity`,
-/// `local_damping`, `inertia`, `drag_per_s`, `pad_body_load` and the planes' velocities are read at every step and may be
-/// changed between steps; a change of anything else needs a new engine. Results are bitwise the same for any number of threads.
+/// `local_damping`, `inertia`, `drag_per_s`, `pad_body_load` and the planes' velocities are read at every step and may
+/// be changed between steps; a change of anything else needs a new engine. Results are bitwise the same for any number
+/// of threads.
 class Engine {
  public:
   explicit Engine(const Model& model, EngineOptions options = {});

@@ -8,7 +8,7 @@ namespace {
 
 /// Bounds hold for two parts of the motion one by one: each may use half of the step's budget.
 constexpr double budget = 0.5;
-constexpr double near_share = 0.1;  // of the rounding: so near is as good as touching
+constexpr double near_share = 0.1;         // of the rounding: so near is as good as touching
 constexpr int contacts_of_a_particle = 4;  // that may touch at once before any candidate is known
 
 /// How much of a step's budget rates take: dt^2/4 k + dt c <= 1 (see largest_stable_step()).

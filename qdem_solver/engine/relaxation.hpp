@@ -19,9 +19,9 @@ inline constexpr int resting_points = 1;
 /// Stones of rock are a hundred times stiffer than their contacts, and so limit the true step to a small part of this.
 double relaxation_step(const Model& model, int n_contacts, double safety);
 
-/// Keeps Model::inertia of one model such that step() is a share `safety` of the stable one for every body, its elements,
-/// its contacts, pads and their dashpots. All candidates that nearly touch are taken as touching, and at least
-/// `n_contacts` on every stone; fit() anew as bodies come together. No inertia is below the true one.
+/// Keeps Model::inertia of one model such that step() is a share `safety` of the stable one for every body, its
+/// elements, its contacts, pads and their dashpots. All candidates that nearly touch are taken as touching, and at
+/// least `n_contacts` on every stone; fit() anew as bodies come together. No inertia is below the true one.
 class Relaxation {
  public:
   /// The model must outlive the object and keep all but planes, loads and damping.

@@ -39,9 +39,9 @@ Rates template_rates(const Template& shape, const Material& material);
 /// The same of every body of a model, at its scale.
 std::vector<Rates> element_rates(const Model& model);
 
-/// Rates of the contacts on a particle from ContactRates::particle. Dashpots are set by their ratio zeta to the features'
-/// effective mass, so n touching contacts of stiffness over mass q give a row sum 4 zeta n sqrt(q), and `stiffness` is
-/// 2 N q for N candidates: the damping covers n = sqrt(2 N) simultaneous contacts of one particle.
+/// Rates of the contacts on a particle from ContactRates::particle. Dashpots are set by their ratio zeta to the
+/// features' effective mass, so n touching contacts of stiffness over mass q give a row sum 4 zeta n sqrt(q), and
+/// `stiffness` is 2 N q for N candidates: the damping covers n = sqrt(2 N) simultaneous contacts of one particle.
 Rates particle_contact_rates(double stiffness, double damping_ratio);
 
 /// Bound from single quadruples: omega^2 <= 4/rho (lambda + 2 mu) max sum_k |g_k|^2, scale 1.

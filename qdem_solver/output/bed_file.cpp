@@ -150,8 +150,7 @@ void take_state(const Hdf5Store& file, const Model& model, State& state) {
   contact.rebuilds = counts.at(0), contact.list_id = static_cast<std::uint64_t>(counts.at(1));
   const auto n = static_cast<std::size_t>(model.n_values);
   if (state.x.size() != n || state.v.size() != n || state.a.size() != n || contact.slip.size() != contact.keys.size() ||
-      contact.travel.size() != model.bodies.size() ||
-      contact.triangle_offsets.size() != contact.keys.size() + 1) {
+      contact.travel.size() != model.bodies.size() || contact.triangle_offsets.size() != contact.keys.size() + 1) {
     throw proto::Error(proto::ExitCode::bad_data, "the arrays of the bed do not fit each other");
   }
 }

@@ -37,7 +37,7 @@ class TrackBed {
   const Model& model() const { return bed_.model; }
   State& state() { return bed_.state; }
   Engine& engine() { return *engine_; }
-  double largest_step() const { return largest_step_; }  ///< safety included [s]
+  double largest_step() const { return largest_step_; }           ///< safety included [s]
   double relaxation_step() const { return relaxation_->step(); }  ///< the same while relaxing [s]
 
   /// From now on bodies are relaxed: Cundall's damping, and inertia that makes relaxation_step() stable.

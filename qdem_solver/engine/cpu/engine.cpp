@@ -17,8 +17,8 @@ using proto::Span;
 
 namespace {
 
-/// While relaxing, deformation loses this share of its velocity, times the local damping, in a step: strong for what the
-/// step resolves well, and a twentieth of the step's budget at most.
+/// While relaxing, deformation loses this share of its velocity, times the local damping, in a step: strong for what
+/// the step resolves well, and a twentieth of the step's budget at most.
 constexpr double drag_of_a_step = 0.05;
 
 }  // namespace

@@ -67,10 +67,10 @@ struct Kick {
 };
 
 /// Replaces the forces on the particles of a batch by those that make an undamped kick move the bodies with other
-/// inertia (see Inertia) and damping. The acceleration a is split into a_rigid, its mass-weighted least-squares fit by the
-/// free accelerations of a rigid body, and the rest, and so is the velocity. Both parts of a are scaled; the rigid one has
-/// Cundall's damping, the other a drag, which has neither resultant nor moment: what rings inside a body does not brake it.
-/// Spin is taken to be slow: the centripetal part counts as deformation.
+/// inertia (see Inertia) and damping. The acceleration a is split into a_rigid, its mass-weighted least-squares fit by
+/// the free accelerations of a rigid body, and the rest, and so is the velocity. Both parts of a are scaled; the rigid
+/// one has Cundall's damping, the other a drag, which has neither resultant nor moment: what rings inside a body does
+/// not brake it. Spin is taken to be slow: the centripetal part counts as deformation.
 struct ScaleInertia {
   double gravity[3];
   double local_damping;     ///< of rigid motion [-]

@@ -291,8 +291,7 @@ void scale_inertia(const ScaleInertia& job) {
 }  // namespace
 
 const Kernels& QDEM_KERNELS() {
-  static const Kernels table{QDEM_INSTRUCTION_SET, lane_forces, single_forces, drift, kick, gather,
-                             scale_inertia};
+  static const Kernels table{QDEM_INSTRUCTION_SET, lane_forces, single_forces, drift, kick, gather, scale_inertia};
   return table;
 }
 
