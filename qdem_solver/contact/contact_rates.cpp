@@ -52,44 +52,44 @@ void ContactRateSums::add_share(const Share& share, const Vector3d& point, doubl
   rates_[share.body].rigid += stiffness * bodies_[share.body].mobility(point);
 }
 
-void ContactRateSums::add(std::size_t entry) {
+ContactRateSums::Approach ContactRateSums::approach(std::size_t entry) const {
   const ContactState& contact = state_.contact;
   const ContactKey& key = contact.keys[entry];
   const double* x = state_.x.data();
+  const double rounding = model_.contact.rounding;
   const BodySkin& a = skins_[key.body_a];
-  Share of_a{key.body_a}, of_b{key.is_plane() ? 0 : key.body_b};
-  Vector3d point;
-  double distance = 0.0;
+  const Share node{key.body_a, 1, {key.feature_a}, {1.0}};
+  if (key.is_plane()) {
+    const Plane& plane = model_.planes[~key.body_b];
+    const Vector3d point = a.at(x, key.feature_a);
+    return {plane.normal.dot(point - plane.point - state_.time * plane.velocity) - rounding, point, node, {}};
+  }
+  const BodySkin& b = skins_[key.body_b];
   if (key.is_edge_pair()) {
-    const BodySkin& b = skins_[key.body_b];
     const EdgeNow ea(a, x, key.feature_a), eb(b, x, key.feature_b);
     const LinePair pair = closest_on_lines(ea.x[0], ea.direction(), eb.x[0], eb.direction());
     const double s = pair.crossing ? pair.s : 0.5, t = pair.crossing ? pair.t : 0.5;
     const auto &na = a.shape->edges[key.feature_a].nodes, &nb = b.shape->edges[key.feature_b].nodes;
-    of_a = {key.body_a, 2, {na[0], na[1]}, {1 - s, s}};
-    of_b = {key.body_b, 2, {nb[0], nb[1]}, {1 - t, t}};
-    point = ea.at(s);
-    distance = std::sqrt(segment_distance2(ea.x[0], ea.x[1], eb.x[0], eb.x[1])) - 2 * model_.contact.rounding;
-  } else {
-    of_a = {key.body_a, 1, {key.feature_a}, {1.0}};
-    point = a.at(x, key.feature_a);
-    if (key.is_plane()) {
-      const Plane& plane = model_.planes[~key.body_b];
-      distance = plane.normal.dot(point - plane.point - state_.time * plane.velocity) - model_.contact.rounding;
-    } else {
-      const BodySkin& b = skins_[key.body_b];
-      const SurfacePoint nearest =
-          nearest_surface_point(b, x, point, contact.triangles.data() + contact.triangle_offsets[entry],
-                                contact.triangles.data() + contact.triangle_offsets[entry + 1]);
-      const auto& corners = b.shape->triangles[nearest.triangle].nodes;
-      distance = nearest.distance - 2 * model_.contact.rounding;
-      of_b = {key.body_b, 3, corners, {nearest.weights[0], nearest.weights[1], nearest.weights[2]}};
-    }
+    return {std::sqrt(segment_distance2(ea.x[0], ea.x[1], eb.x[0], eb.x[1])) - 2 * rounding,
+            ea.at(s),
+            {key.body_a, 2, {na[0], na[1]}, {1 - s, s}},
+            Share{key.body_b, 2, {nb[0], nb[1]}, {1 - t, t}}};
   }
-  if (distance > gap_) return;
-  const double sides = key.is_plane() ? 1.0 : 2.0;
-  add_share(of_a, point, sides * stiffness_);
-  add_share(of_b, point, sides * stiffness_);
+  const Vector3d point = a.at(x, key.feature_a);
+  const SurfacePoint nearest =
+      nearest_surface_point(b, x, point, contact.triangles.data() + contact.triangle_offsets[entry],
+                            contact.triangles.data() + contact.triangle_offsets[entry + 1]);
+  const auto& w = nearest.weights;
+  const Share facet{key.body_b, 3, b.shape->triangles[nearest.triangle].nodes, {w[0], w[1], w[2]}};
+  return {nearest.distance - 2 * rounding, point, node, facet};
+}
+
+void ContactRateSums::add(std::size_t entry) {
+  const Approach approach = this->approach(entry);
+  if (approach.distance > gap_) return;
+  const double given = approach.other ? 2 * stiffness_ : stiffness_;
+  add_share(approach.share, approach.point, given);
+  if (approach.other) add_share(*approach.other, approach.point, given);
 }
 
 std::vector<ContactRates> ContactRateSums::result() const {

@@ -1,6 +1,7 @@
 // How stiff the contacts of a candidate list are against the masses they act on.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "qdem_solver/contact/body_skin.hpp"
@@ -12,7 +13,7 @@ namespace qdem {
 /// every entry, then result().
 ///
 /// A contact of stiffness k between bodies a and b has the energy k/2 |J_a u_a - J_b u_b|^2 <= k (|J_a u_a|^2 + |J_b
-/// u_b|^2), so that twice its stiffness may be given to either body alone. For a rigid body J M^-1 J^T = 1/m + [r] I^-1
+/// u_b|^2), so that twice its stiffness may be given to either body alone; against a plane it is the body's alone. For a rigid body J M^-1 J^T = 1/m + [r] I^-1
 /// [r]^T, [r] the cross product with the point's arm; for particles, row sums bound it (Gershgorin).
 class ContactRateSums {
  public:
@@ -36,6 +37,15 @@ class ContactRateSums {
     std::array<double, 3> weights{};
   };
 
+  /// How near the two sides of an entry are, and what its force acts on.
+  struct Approach {
+    double distance;  ///< between the rounded surfaces [m]
+    Eigen::Vector3d point;
+    Share share;
+    std::optional<Share> other;  ///< planes have none
+  };
+
+  Approach approach(std::size_t entry) const;
   void add_share(const Share& share, const Eigen::Vector3d& point, double stiffness);
 
   const std::vector<BodySkin>& skins_;
