@@ -132,13 +132,13 @@ void CoupledRun::set_up() {
   const auto configured = configure("qdem", request);
   const auto fem_configured = supervisor_.await<proto::Configured>("fem", fem_ticket, true);
   summary_.facts.insert(summary_.facts.end(), fem_configured.facts.begin(), fem_configured.facts.end());
-  summary_.largest_step_s = configured.largest_step_s.value_or(0.0);
-  summary_.sub_cycles = sub_cycles_for(input_.coupling.window_s, configured.largest_step_s);
+  configured_step_s_ = configured.largest_step_s;
   initialise_step_s_ =
       configured.largest_initialise_step_s ? configured.largest_initialise_step_s : configured.largest_step_s;
   summary_.wall.start_up = seconds_since(begin_);
   waited_in_start_up_s_ = supervisor_.waited_s();
-  log_.info("configured: {} sub-cycles, largest step {} s", summary_.sub_cycles, summary_.largest_step_s);
+  log_.info("configured: largest step {} s, {} s while initialising", configured_step_s_.value_or(0.0),
+            initialise_step_s_.value_or(0.0));
 }
 
 void CoupledRun::account(const WindowRecord& record) {
@@ -186,12 +186,13 @@ void CoupledRun::take_initial_values() {
   const InterfaceState initial{rail.data.get(field::rail_displacement), rail.data.get(field::rail_velocity),
                                sleeper.data.get(field::sleeper_displacement),
                                sleeper.data.get(field::sleeper_velocity)};
-  scheme_.emplace(input_.coupling.scheme, input_.coupling.window_s, summary_.sub_cycles, laws_);
+  const auto step = sleeper.largest_step_s ? sleeper.largest_step_s : configured_step_s_;
+  scheme_.emplace(input_.coupling.scheme, input_.coupling.window_s, sub_cycles_for(input_.coupling.window_s, step),
+                  laws_);
   scheme_->start(initial);
   auto attributes = proto::provenance("coupler", input_.file.name(), input_.file.hash(), input_.file.text());
   attributes.emplace_back("scheme", std::string(name_of(input_.coupling.scheme)));
   attributes.emplace_back("window_s", input_.coupling.window_s);
-  attributes.emplace_back("sub_cycles", static_cast<std::int64_t>(summary_.sub_cycles));
   for (const auto& fact : summary_.facts)
     attributes.emplace_back(fact.key, fact.number ? proto::Attribute(*fact.number) : proto::Attribute(fact.text));
   record_.emplace(folder_.file("coupling.h5"), input_.seats, input_.coupling.window_s, attributes);
@@ -202,6 +203,7 @@ void CoupledRun::add_window(const WindowRecord& record) {
   record_->add(record, audit_.add(record));
   update_figures(summary_.seats, record, input_.seats, input_.coupling.window_s);
   summary_.n_windows = record.window + 1;
+  summary_.sub_cycles = std::max(summary_.sub_cycles, record.sub_cycles);
   summary_.energy_defect_relative = audit_.energy_defect_relative();
   summary_.momentum_defect_relative = audit_.momentum_defect_relative();
 }

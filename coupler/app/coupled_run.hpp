@@ -65,7 +65,7 @@ class CoupledRun {
   RemoteSide qdem_, fem_;
   Audit audit_;
   std::vector<proto::PadLaw> laws_;
-  std::optional<double> initialise_step_s_;  ///< of the explicit side
+  std::optional<double> configured_step_s_, initialise_step_s_;  ///< largest of the explicit side [s]
   std::optional<WindowScheme> scheme_;       ///< of the march
   std::optional<CouplingRecord> record_;
   std::chrono::steady_clock::time_point begin_;

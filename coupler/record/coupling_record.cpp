@@ -29,6 +29,7 @@ std::vector<proto::Column> columns(const std::vector<proto::RailSeat>& seats) {
       {"window", "1", "window number; -1: the initial values", {}},
       {"time", "s", "at the window's end", {}},
       {"energy_defect_sum", "J", "sum of D over all values since time 0", {}},
+      {"sub_cycles", "1", "steps of qdem in the window", {}},
       {"qdem_compute", "s", "wall time qdem computed in the window", {}},
       {"fem_compute", "s", "wall time fem computed in the window", {}},
   };
@@ -62,7 +63,7 @@ void CouplingRecord::put_seats(const std::string& name, const std::vector<double
 void CouplingRecord::add_initial(const InterfaceState& initial) {
   const std::vector<double> zero(momentum_defect_sum_.size(), 0.0);
   file_.put("window", -1.0);
-  for (const char* name : {"time", "energy_defect_sum", "qdem_compute", "fem_compute"}) file_.put(name, 0.0);
+  for (const char* name : {"time", "energy_defect_sum", "sub_cycles", "qdem_compute", "fem_compute"}) file_.put(name, 0.0);
   for (const auto& column : seat_columns) put_seats(column.name, zero);
   put_seats("rail_displacement", initial.rail_displacement);
   put_seats("rail_velocity", initial.rail_velocity);
@@ -77,6 +78,7 @@ void CouplingRecord::add(const WindowRecord& record, const WindowAudit& audit) {
   file_.put("window", static_cast<double>(record.window));
   file_.put("time", static_cast<double>(record.window + 1) * window_s_);
   file_.put("energy_defect_sum", audit.energy_defect_sum);
+  file_.put("sub_cycles", static_cast<double>(record.sub_cycles));
   file_.put("qdem_compute", record.explicit_compute_s);
   file_.put("fem_compute", record.implicit_compute_s);
   put_seats("rail_displacement", record.rail_displacement);

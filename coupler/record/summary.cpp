@@ -58,7 +58,6 @@ std::string summary_text(const Summary& s) {
   root["windows_wanted"] = s.n_windows_wanted;
   root["window_s"] = s.window_s;
   root["sub_cycles"] = s.sub_cycles;
-  root["largest_step_s"] = s.largest_step_s > 0.0 ? Json(s.largest_step_s) : Json(nullptr);
   root["initialise"] = {{"windows", s.initialise_windows},
                         {"change_relative", s.rest.change},
                         {"qdem_residual", s.rest.qdem_residual},

@@ -24,8 +24,7 @@ struct Summary {
   std::int64_t n_windows = 0;  ///< committed
   std::int64_t n_windows_wanted = 0;
   double window_s = 0.0;
-  std::uint32_t sub_cycles = 0;
-  double largest_step_s = 0.0;  ///< 0: qdem named none
+  std::uint32_t sub_cycles = 0;  ///< most in one window
   int initialise_windows = 0;
   RestFigures rest;  ///< at its end
   double energy_defect_relative = 0.0, momentum_defect_relative = 0.0;

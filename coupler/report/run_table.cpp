@@ -16,7 +16,7 @@ std::string seconds(double value, double total) {
 }  // namespace
 
 std::string run_table(const Summary& s, const std::string& out) {
-  std::string text = fmt::format("\n{}: {}, scheme {}, {} windows of {:g} s, {} sub-cycles\n", s.case_name, s.status,
+  std::string text = fmt::format("\n{}: {}, scheme {}, {} windows of {:g} s, up to {} sub-cycles\n", s.case_name, s.status,
                                  s.scheme, s.n_windows, s.window_s, s.sub_cycles);
   for (const auto& seat : s.seats) {
     text += fmt::format("rail seat '{}', largest along its normal\n", seat.name);

@@ -12,6 +12,7 @@ namespace coupler {
 struct WindowRecord {
   proto::Phase phase = proto::Phase::march;
   std::int64_t window = 0;
+  std::uint32_t sub_cycles = 1;                 ///< of the explicit side
   std::vector<double> rail_displacement_begin;  ///< u at t_n [m]
   std::vector<double> rail_displacement;        ///< u at t_n+1 [m]
   std::vector<double> rail_velocity;            ///< u' at t_n+1 [m/s]

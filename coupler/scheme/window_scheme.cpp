@@ -96,6 +96,7 @@ WindowRecord WindowScheme::advance(proto::Phase phase, std::int64_t window, Side
   WindowRecord record;
   record.phase = phase;
   record.window = window;
+  record.sub_cycles = sub_cycles_;
 
   const auto rail = sides.implicit_side.advance(implicit_request(phase, window));
   record.implicit_compute_s = rail.compute_s;
@@ -118,6 +119,7 @@ WindowRecord WindowScheme::advance(proto::Phase phase, std::int64_t window, Side
   record.sleeper_displacement = take(sleeper, "qdem", field::sleeper_displacement, n);
   record.sleeper_velocity = take(sleeper, "qdem", field::sleeper_velocity, n);
   update(record);
+  if (sleeper.largest_step_s) sub_cycles_ = sub_cycles_for(window_s_, sleeper.largest_step_s);
   return record;
 }
 

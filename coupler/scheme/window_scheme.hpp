@@ -26,7 +26,8 @@ struct InterfaceState {
 /// The object survives a throw of a side only in the sense that it can be destroyed.
 class WindowScheme {
  public:
-  /// `laws`: the pad law of every interface value, as its owner registered it. `window_s` > 0, `sub_cycles` >= 1.
+  /// `laws`: the pad law of every interface value, as its owner registered it. `window_s` > 0, `sub_cycles` >= 1: of the
+  /// first window, and of all if the explicit side names no step of its own (Result.largest_step_s).
   WindowScheme(proto::Scheme scheme, double window_s, std::uint32_t sub_cycles, std::vector<proto::PadLaw> laws);
 
   /// Sets the values at time 0 and forgets what was carried. Throws proto::Error (protocol) for a wrong length.
@@ -44,7 +45,7 @@ class WindowScheme {
 
   proto::Scheme scheme_;
   double window_s_;
-  std::uint32_t sub_cycles_;
+  std::uint32_t sub_cycles_;  ///< of the next window
   std::vector<proto::PadLaw> laws_;
   InterfaceState state_;
   std::vector<double> sleeper_acceleration_;  ///< window mean of the last window [m/s^2]

@@ -33,6 +33,9 @@ std::string Participant::build_id() const {
 std::optional<double> Participant::residual() {
   return {};
 }
+std::optional<double> Participant::largest_step() {
+  return {};
+}
 void Participant::rollback(const Rollback&) {
   not_offered("Rollback");
 }

@@ -2,8 +2,8 @@
 //
 // Call order (the coupler leads; the session checks it and answers a break of it with a fault):
 //
-//     watch, name, capabilities, build_id -> describe -> configure -> [advance(initialise) residual commit]* -> start
-//         -> [advance [rollback advance]* commit]* -> finish
+//     watch, name, capabilities, build_id -> describe -> configure -> [advance(initialise) residual commit]*
+//         -> start largest_step -> [advance largest_step [rollback advance largest_step]* commit]* -> finish
 //     save / restore between a commit and the next advance; a restore instead of initialise and start resumes a run
 //
 // serve() owns a communication thread, which holds the socket and sends heartbeats while the solver computes. All
@@ -64,6 +64,11 @@ class Participant {
   /// the forces that should balance, at least 0 [-]. Asked for in the initialise phase only; the coupler ends the run
   /// of a solver that offers initialise and gives none.
   virtual std::optional<double> residual();
+
+  /// Largest stable step [s] of the window that follows the state just started from or advanced to, if it changes along
+  /// the way; without, configure()'s holds for the whole march. Same state, same step: a window that is solved again
+  /// after a rollback gets the sub-cycles that it got before.
+  virtual std::optional<double> largest_step();
 
   /// The window just advanced is final; write output here.
   virtual void commit(const Commit& request) = 0;

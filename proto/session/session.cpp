@@ -96,6 +96,7 @@ std::optional<Body> Session::answer(const Start&) {
   result.window = -1;
   const auto begin = std::chrono::steady_clock::now();
   result.data = participant_.start();
+  result.largest_step_s = participant_.largest_step();
   result.compute_s = seconds_since(begin);
   check_outgoing(result.data, -1);
   phase_ = Phase::march;
@@ -123,10 +124,14 @@ std::optional<Body> Session::answer(const Advance& request) {
   require(request.window_s > 0.0 && request.sub_cycles > 0, "Advance", "window length and sub-cycles must be positive");
   check_incoming(request.data);
   window_ = request.window;
-  Result result{request.phase, request.window, request.iteration, 0.0, {}, {}};
+  Result result{request.phase, request.window, request.iteration, 0.0, {}};
   const auto begin = std::chrono::steady_clock::now();
   result.data = participant_.advance(request, progress_);
-  if (phase_ == Phase::initialise) result.residual = participant_.residual();
+  if (phase_ == Phase::initialise) {
+    result.residual = participant_.residual();
+  } else {
+    result.largest_step_s = participant_.largest_step();
+  }
   result.compute_s = seconds_since(begin);
   check_outgoing(result.data, request.window);
   if (result.residual && !std::isfinite(*result.residual))

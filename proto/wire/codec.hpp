@@ -12,7 +12,7 @@
 namespace proto {
 
 inline constexpr std::uint32_t protocol_major = 1;
-inline constexpr std::uint32_t protocol_minor = 1;
+inline constexpr std::uint32_t protocol_minor = 2;
 
 /// XXH3-64 of the schema's text, fixed at build time.
 std::uint64_t schema_hash();

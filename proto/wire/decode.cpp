@@ -135,8 +135,9 @@ Advance read(const fbs::Advance& m) {
 }
 Result read(const fbs::Result& m) {
   if (m.residual()) finite(*m.residual(), "residual");
+  if (m.largest_step_s()) finite(*m.largest_step_s(), "largest_step_s");
   return {phase(m.phase()), m.window(),  m.iteration(), finite(m.compute_s(), "compute_s"),
-          fields(m.data()), m.residual()};
+          fields(m.data()), m.residual(), m.largest_step_s()};
 }
 Commit read(const fbs::Commit& m) {
   return {m.window()};

@@ -40,7 +40,8 @@ class BodyWriter {
     return fbs::CreateAdvance(b_, phase(m.phase), m.window, m.iteration, m.window_s, m.sub_cycles, fields(m.data));
   }
   auto operator()(const Result& m) {
-    return fbs::CreateResult(b_, phase(m.phase), m.window, m.iteration, m.compute_s, fields(m.data), m.residual);
+    return fbs::CreateResult(b_, phase(m.phase), m.window, m.iteration, m.compute_s, fields(m.data), m.residual,
+                             m.largest_step_s);
   }
   auto operator()(const Commit& m) { return fbs::CreateCommit(b_, m.window); }
   auto operator()(const Rollback& m) { return fbs::CreateRollback(b_, m.window); }

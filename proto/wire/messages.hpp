@@ -114,7 +114,8 @@ struct Result {
   std::uint32_t iteration = 0;
   double compute_s = 0.0;
   FieldSet data;
-  std::optional<double> residual;  ///< out-of-balance force over force scale [-]; initialise phase only
+  std::optional<double> residual = {};        ///< out-of-balance force over force scale [-]; initialise phase only
+  std::optional<double> largest_step_s = {};  ///< of the next window, if not Configured's; march only [s]
 };
 struct Commit { std::int64_t window = 0; };
 struct Rollback { std::int64_t window = 0; };

@@ -51,7 +51,8 @@ void run_command(const std::string& case_path, const std::string& out) {
     if (isatty(fileno(stderr)) != 0) fmt::print(stderr, "\rt = {:.6f} s", time);
   });
   if (isatty(fileno(stderr)) != 0) fmt::print(stderr, "\n");
-  fmt::print("steps                     {} of {:.4g} s\n", figures.steps, figures.step);
+  fmt::print("steps                     {} of {:.4g} to {:.4g} s\n", figures.steps, figures.smallest_step,
+             figures.largest_step);
   fmt::print("wall time                 {:.2f} s ({:.1f} million element updates a second)\n", figures.wall,
              1e-6 * figures.element_updates_per_s);
   fmt::print("sleeper at the seats      {:.4f} mm along their normal\n", 1e3 * figures.sleeper_displacement);

@@ -78,7 +78,7 @@ void Builder::run_with_true_masses(int least_steps, int most_steps, const Rest& 
   model_.inertia.assign(model_.bodies.size(), Inertia{});
   Engine engine(model_);
   engine.prepare(state_);
-  const double dt = step_safety * stability(model_, state_, engine.contacts()).largest_step;
+  const double dt = step_safety * StepBound(model_).at(state_, engine.contacts(), near_gap(model_.contact));
   march(engine, dt, {least_steps * dt, most_steps * dt}, rest, {});
   model_.inertia.clear();
 }
@@ -110,9 +110,10 @@ void Builder::march(Engine& engine, double dt, const Duration& duration, const R
   spdlog::info(
       "bed: {}: {:.3f} s in {} steps of {:.2f} us ({:.1f} s of work), unbalanced force {:.1e}, kinetic energy {:.1e} "
       "J, "
-      "{} contacts, penetration {:.3f} mm",
+      "{} contacts, penetration {:.3f} mm, sleeper at {:.3f} mm",
       stage_, state_.time - start, state_.step - first_step, 1e6 * dt, seconds_since(clock),
-      report_.unbalanced_force_ratio, report_.kinetic_energy, contacts.live, 1e3 * report_.largest_penetration);
+      report_.unbalanced_force_ratio, report_.kinetic_energy, contacts.live, 1e3 * report_.largest_penetration,
+      1e3 * seat_height());
 }
 
 double Builder::tamp(double level, double pressure) {

@@ -18,7 +18,7 @@ ContactRateSums::ContactRateSums(const Model& model, const std::vector<BodySkin>
       gap_(gap),
       // Half as much again: the force of an edge pair changes with its share too (edge_pair.hpp).
       stiffness_(1.5 * model.contact.normal_stiffness * std::max(1.0, model.contact.tangential_ratio)),
-      particles_(state.x.size(), 0.0),
+      particles_(state.x.size()),
       rates_(skins.size()) {
   for (int b = 0; b < static_cast<int>(skins.size()); ++b) {
     const BodySkin& skin = skins[b];
@@ -43,11 +43,20 @@ double ContactRateSums::RigidBody::mobility(const Vector3d& point) const {
   return inverse_mass + (cross * inverse_inertia * cross.transpose()).norm();
 }
 
-void ContactRateSums::add_share(const Share& share, const Vector3d& point, double stiffness) {
+double ContactRateSums::inverse_mass(const Share& share) const {
+  double inverse = 0.0;
+  for (int i = 0; i < share.n; ++i) {
+    inverse += share.weights[i] * share.weights[i] / skins_[share.body].node_mass(share.nodes[i]);
+  }
+  return inverse;
+}
+
+void ContactRateSums::add_share(const Share& share, const Vector3d& point, double stiffness, double damping) {
   const BodySkin& skin = skins_[share.body];
   for (int i = 0; i < share.n; ++i) {
-    particles_[skin.offset + 3 * skin.stride * share.nodes[i]] +=
-        stiffness * share.weights[i] / skin.node_mass(share.nodes[i]);
+    const double per_mass = share.weights[i] / skin.node_mass(share.nodes[i]);
+    Rates& row = particles_[skin.offset + 3 * skin.stride * share.nodes[i]];
+    row = row + Rates{stiffness * per_mass, damping * per_mass};
   }
   rates_[share.body].rigid += stiffness * bodies_[share.body].mobility(point);
 }
@@ -87,9 +96,11 @@ ContactRateSums::Approach ContactRateSums::approach(std::size_t entry) const {
 void ContactRateSums::add(std::size_t entry) {
   const Approach approach = this->approach(entry);
   if (approach.distance > gap_) return;
-  const double given = approach.other ? 2 * stiffness_ : stiffness_;
-  add_share(approach.share, approach.point, given);
-  if (approach.other) add_share(*approach.other, approach.point, given);
+  const double sides = approach.other ? 2 : 1;
+  const double inverse = inverse_mass(approach.share) + (approach.other ? inverse_mass(*approach.other) : 0.0);
+  const double dashpot = 2 * model_.contact.damping_ratio * std::sqrt(stiffness_ / inverse);
+  add_share(approach.share, approach.point, sides * stiffness_, sides * dashpot);
+  if (approach.other) add_share(*approach.other, approach.point, sides * stiffness_, sides * dashpot);
 }
 
 std::vector<ContactRates> ContactRateSums::result() const {
@@ -97,7 +108,7 @@ std::vector<ContactRates> ContactRateSums::result() const {
   for (std::size_t b = 0; b < skins_.size(); ++b) {
     const BodySkin& skin = skins_[b];
     for (const int node : skin.shape->surface_nodes) {
-      rates[b].particle = std::max(rates[b].particle, particles_[skin.offset + 3 * skin.stride * node]);
+      rates[b].particle = larger(rates[b].particle, particles_[skin.offset + 3 * skin.stride * node]);
     }
   }
   return rates;

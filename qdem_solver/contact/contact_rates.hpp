@@ -13,8 +13,9 @@ namespace qdem {
 /// every entry, then result().
 ///
 /// A contact of stiffness k between bodies a and b has the energy k/2 |J_a u_a - J_b u_b|^2 <= k (|J_a u_a|^2 + |J_b
-/// u_b|^2), so that twice its stiffness may be given to either body alone; against a plane it is the body's alone. For a rigid body J M^-1 J^T = 1/m + [r] I^-1
-/// [r]^T, [r] the cross product with the point's arm; for particles, row sums bound it (Gershgorin).
+/// u_b|^2), so that twice its stiffness may be given to either body alone; against a plane it is the body's alone. The
+/// same holds of its dashpot. For a rigid body J M^-1 J^T = 1/m + [r] I^-1 [r]^T, [r] the cross product with the point's
+/// arm; for particles, row sums bound it (Gershgorin).
 class ContactRateSums {
  public:
   ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const State& state, double gap);
@@ -46,14 +47,15 @@ class ContactRateSums {
   };
 
   Approach approach(std::size_t entry) const;
-  void add_share(const Share& share, const Eigen::Vector3d& point, double stiffness);
+  double inverse_mass(const Share& share) const;  ///< of the point it holds [1/kg]
+  void add_share(const Share& share, const Eigen::Vector3d& point, double stiffness, double damping);
 
   const std::vector<BodySkin>& skins_;
   const State& state_;
   const Model& model_;
   double gap_, stiffness_;
   std::vector<RigidBody> bodies_;
-  std::vector<double> particles_;  ///< row sums, where component 0 of a particle lies in the state arrays
+  std::vector<Rates> particles_;  ///< row sums, where component 0 of a particle lies in the state arrays
   std::vector<ContactRates> rates_;
 };
 

@@ -97,12 +97,19 @@ struct ContactStage::Data {
     list_id = contact.list_id;
   }
 
-  /// The wake travels hold along one motion only: a state from elsewhere, such as a restored one, clears them.
+  static double total_travel(const State& state) {
+    return std::accumulate(state.contact.travel.begin(), state.contact.travel.end(), 0.0);
+  }
+
+  /// The wake travels hold along one motion only, not for a state from elsewhere, such as a restored one.
+  bool wakes_hold(const State& state) const {
+    return list_id == state.contact.list_id && total_travel(state) >= last_travel &&
+           (state.step == last_step || state.step == last_step + 1);
+  }
+
   void follow(const State& state) {
-    const double travel = std::accumulate(state.contact.travel.begin(), state.contact.travel.end(), 0.0);
-    const bool continues = travel >= last_travel && (state.step == last_step || state.step == last_step + 1);
-    if (!continues) std::fill(wake.begin(), wake.end(), 0.0);
-    last_travel = travel, last_step = state.step;
+    if (!wakes_hold(state)) std::fill(wake.begin(), wake.end(), 0.0);
+    last_travel = total_travel(state), last_step = state.step;
   }
 
   EntryForce push(const State& state, std::size_t i, double dt, Eigen::Vector3d& slip) const {
@@ -193,7 +200,11 @@ void ContactStage::gather(int body, proto::Span<double> force) const {
 std::vector<ContactRates> ContactStage::rates(const State& state, double gap) const {
   const Data& d = *data_;
   ContactRateSums sums(d.model, d.skins, state, gap);
-  for (std::size_t i = 0; i < state.contact.keys.size(); ++i) sums.add(i);
+  const bool asleep = d.wakes_hold(state);
+  for (std::size_t i = 0; i < state.contact.keys.size(); ++i) {
+    if (asleep && d.wake[i] - d.travel_of(state, state.contact.keys[i]) > gap) continue;
+    sums.add(i);
+  }
   return sums.result();
 }
 

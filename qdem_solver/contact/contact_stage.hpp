@@ -1,10 +1,10 @@
 // Contact between the surfaces of different bodies, and with planes.
 #pragma once
 
-#include <limits>
 #include <memory>
 
 #include "proto/span.hpp"
+#include "qdem_solver/contact/rates.hpp"
 #include "qdem_solver/model/model.hpp"
 #include "qdem_solver/state/state.hpp"
 
@@ -19,11 +19,16 @@ struct ContactReport {
   double elastic_energy = 0.0;       ///< normal and tangential springs [J]
 };
 
-/// Upper bounds of the squared angular frequency that contacts add to one body.
+/// Upper bounds of what contacts add to one body.
 struct ContactRates {
-  double particle = 0.0;  ///< largest row sum of M^-1 K over its particles [1/s2]
-  double rigid = 0.0;     ///< of its motion as a rigid body [1/s2]
+  Rates particle;      ///< largest row sums over its particles
+  double rigid = 0.0;  ///< squared angular frequency of its motion as a rigid body [1/s2]
 };
+
+/// Gap below which bodies that hardly move are taken as touching [m].
+inline double near_gap(const ContactLaw& law) {
+  return 0.1 * law.rounding;
+}
 
 /// Finds contacts and computes their forces. Holds scratch only; all history lives in the State.
 /// Every sum is taken in an order fixed by the candidate list, so results do not depend on the number of threads.
@@ -46,9 +51,8 @@ class ContactStage {
   /// Adds the contact forces on the nodes of `body` to `force` [N], an array laid out like state.x.
   void gather(int body, proto::Span<double> force) const;
 
-  /// The bounds of every body if all candidates of the current list touched that are within `gap` [m] of it; without a
-  /// gap, all.
-  std::vector<ContactRates> rates(const State& state, double gap = std::numeric_limits<double>::infinity()) const;
+  /// The bounds of every body if all candidates of the current list touched that are within `gap` [m] of it.
+  std::vector<ContactRates> rates(const State& state, double gap) const;
 
   ContactReport report(const State& state) const;
 

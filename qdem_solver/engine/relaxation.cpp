@@ -8,7 +8,6 @@ namespace {
 
 /// Bounds hold for two parts of the motion one by one: each may use half of the step's budget.
 constexpr double budget = 0.5;
-constexpr double near_share = 0.1;         // of the rounding: so near is as good as touching
 constexpr int contacts_of_a_particle = 4;  // that may touch at once before any candidate is known
 
 /// How much of a step's budget rates take: dt^2/4 k + dt c <= 1 (see largest_stable_step()).
@@ -26,6 +25,13 @@ double lightest_particle(const Model& model, int body) {
 double rigid_rate(const Model& model, double mass, int n_contacts) {
   const double stiffness = model.contact.normal_stiffness * std::max(1.0, model.contact.tangential_ratio);
   return n_contacts * stiffness * 2 * 3.5 / mass;
+}
+
+/// `n` contacts of a particle with bodies as heavy as it may be: k and c = 2 zeta sqrt(m k), doubled for the two sides.
+Rates contacts_of(const Model& model, int n, double particle_mass) {
+  const double stiffness = model.contact.normal_stiffness * std::max(1.0, model.contact.tangential_ratio);
+  const double dashpot = 2 * model.contact.damping_ratio * std::sqrt(particle_mass * stiffness);
+  return {2 * n * stiffness / particle_mass, 2 * n * dashpot / particle_mass};
 }
 
 /// Dashpots of rigid motion: c = 2 zeta sqrt(m_eff k), with the mass of a particle at most.
@@ -64,14 +70,14 @@ void Relaxation::begin(Engine& engine, State& state) {
 }
 
 void Relaxation::fit(const Engine& engine, const State& state) {
-  const double dt = step_ / safety_, zeta = model_.contact.damping_ratio;
-  const auto contacts = engine.contacts().rates(state, near_share * model_.contact.rounding);
+  const double dt = step_ / safety_;
+  const auto contacts = engine.contacts().rates(state, near_gap(model_.contact));
   model_.inertia.resize(model_.bodies.size());
   for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
     const double particle = lightest_particle(model_, b);
-    const double touched = 2 * contacts_of_a_particle * model_.contact.normal_stiffness / particle;
     const double pushed = std::max(contacts[b].rigid, rigid_rate(model_, model_.body_mass(b), n_contacts_));
-    Rates deformation = elements_[b] + particle_contact_rates(std::max(contacts[b].particle, touched), zeta);
+    const Rates touched = contacts_of(model_, contacts_of_a_particle, particle);
+    Rates deformation = elements_[b] + larger(contacts[b].particle, touched);
     Rates rigid = with_dashpots(model_, pushed, particle);
     if (b == model_.pad_body) deformation = deformation + pads_, rigid = rigid + pads_;
     model_.inertia[b].deformation = std::max(1.0, demand(deformation, dt) / budget);

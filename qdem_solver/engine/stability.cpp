@@ -103,20 +103,7 @@ std::vector<Rates> of_bodies(const Model& model, RatesOf rates_of) {
   return result;
 }
 
-Rates largest_of(const std::vector<Rates>& rates) {
-  Rates largest;
-  for (const Rates& r : rates) {
-    largest.stiffness = std::max(largest.stiffness, r.stiffness);
-    largest.damping = std::max(largest.damping, r.damping);
-  }
-  return largest;
-}
-
 }  // namespace
-
-Rates operator+(const Rates& p, const Rates& q) {
-  return {p.stiffness + q.stiffness, p.damping + q.damping};
-}
 
 double largest_stable_step(const Rates& rates) {
   const double k = rates.stiffness, c = rates.damping;
@@ -131,10 +118,6 @@ Rates template_rates(const Template& shape, const Material& material) {
 
 std::vector<Rates> element_rates(const Model& model) {
   return of_bodies(model, template_rates);
-}
-
-Rates particle_contact_rates(double stiffness, double damping_ratio) {
-  return {stiffness, 4 * damping_ratio * std::sqrt(stiffness)};
 }
 
 Rates quadruple_rates(const Template& shape, const Material& material) {
@@ -164,23 +147,21 @@ Rates pad_rates(const Model& model) {
     }
   }
   Rates largest;
-  for (const auto& [node, rates] : nodes) {
-    largest.stiffness = std::max(largest.stiffness, rates.stiffness);
-    largest.damping = std::max(largest.damping, rates.damping);
-  }
+  for (const auto& [node, rates] : nodes) largest = larger(largest, rates);
   return largest;
 }
 
-StabilityReport stability(const Model& model, const State& state, const ContactStage& contact) {
-  StabilityReport report;
-  report.elements = largest_of(element_rates(model));
-  double stiffness = 0.0;
-  for (const ContactRates& rates : contact.rates(state)) stiffness = std::max(stiffness, rates.particle);
-  report.contacts = particle_contact_rates(stiffness, model.contact.damping_ratio);
-  report.pads = pad_rates(model);
-  report.largest_step = largest_stable_step(report.elements + report.contacts + report.pads);
-  report.element_step = largest_stable_step(largest_of(of_bodies(model, quadruple_rates)));
-  return report;
+StepBound::StepBound(const Model& model) : model_(model), bodies_(element_rates(model)) {
+  if (!model.pads.empty()) bodies_[model.pad_body] = bodies_[model.pad_body] + pad_rates(model);
+}
+
+double StepBound::at(const State& state, const ContactStage& contacts, double gap) const {
+  const auto rates = contacts.rates(state, gap);
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    step = std::min(step, largest_stable_step(bodies_[b] + rates[b].particle));
+  }
+  return step;
 }
 
 }  // namespace qdem

@@ -74,12 +74,12 @@ proto::FieldSet QdemParticipant::values(PadSums sums) const {
 void QdemParticipant::begin_window(const proto::Advance& request) {
   const bool relaxing = request.phase == proto::Phase::initialise;
   const double dt = request.window_s / request.sub_cycles;
-  const double largest = relaxing ? bed_->relaxation_step() : bed_->largest_step();
+  const double largest = relaxing ? bed_->relaxation_step() : committed_step_;
   if (dt > largest * (1 + 1e-9)) {
     throw proto::Error(proto::ExitCode::protocol,
                        fmt::format("{} sub-cycles make a step of {:.4g} s, the largest stable one is {:.4g} s",
                                    request.sub_cycles, dt, largest),
-                       fmt::format("window {}", request.window), "see Configured.largest_step_s in proto/README.md");
+                       fmt::format("window {}", request.window), "see Result.largest_step_s in proto/README.md");
   }
   if (relaxing && !relaxing_) bed_->relax();
   relaxing_ = relaxing;
@@ -93,7 +93,13 @@ proto::FieldSet QdemParticipant::advance(const proto::Advance& request, proto::P
   const auto& begin = request.data.get(field::rail_displacement_begin);
   const auto& end = request.data.get(field::rail_displacement);
   rail_foot_ = end;
-  return values(bed_->engine().advance(bed_->state(), dt, request.sub_cycles, {begin, end}));
+  auto sums = bed_->engine().advance(bed_->state(), dt, request.sub_cycles, {begin, end});
+  if (marching_) bed_->find_step(window_s_);
+  return values(std::move(sums));
+}
+
+std::optional<double> QdemParticipant::largest_step() {
+  return bed_->largest_step();
 }
 
 std::optional<double> QdemParticipant::residual() {
@@ -110,6 +116,7 @@ bool QdemParticipant::output_is_due(std::int64_t window) const {
 }
 
 void QdemParticipant::commit(const proto::Commit& request) {
+  committed_step_ = bed_->largest_step();
   if (!marching_ || !output_is_due(request.window) || !fields_) return;
   fields_->write(static_cast<double>(request.window + 1) * window_s_, bed_->state(), bed_->engine());
 }
@@ -121,6 +128,8 @@ void QdemParticipant::rollback(const proto::Rollback&) {
 proto::FieldSet QdemParticipant::start() {
   if (relaxing_) bed_->release(release_time_s, rail_foot_);
   bed_->reset_clock();
+  bed_->find_step(window_s_);
+  committed_step_ = bed_->largest_step();
   marching_ = true;
   if (output_interval_ > 0) {
     fields_ = std::make_unique<FieldsFile>(out_ + "/qdem.h5", bed_->model(), bed_->state(), bed_->attributes(file_));

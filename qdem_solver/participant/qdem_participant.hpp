@@ -31,6 +31,8 @@ class QdemParticipant : public proto::Participant {
   proto::FieldSet advance(const proto::Advance& request, proto::Progress& progress) override;
   /// Engine::unbalanced_ratio() of the window's last step.
   std::optional<double> residual() override;
+  /// Of the next window, from the contacts that may form in it.
+  std::optional<double> largest_step() override;
   void commit(const proto::Commit& request) override;
   void rollback(const proto::Rollback& request) override;
   proto::FieldSet start() override;
@@ -49,6 +51,7 @@ class QdemParticipant : public proto::Participant {
   std::unique_ptr<FieldsFile> fields_;
   State before_window_;
   double window_s_ = 0.0, output_interval_ = 0.0;
+  double committed_step_ = 0.0;  ///< largest stable one from the last commit [s]
   std::vector<double> rail_foot_;  ///< at the end of the last window
   bool relaxing_ = false, marching_ = false;
 };

@@ -11,8 +11,8 @@
 namespace qdem {
 namespace {
 
-/// Steps between two looks at the load; the force lags by at most as many.
-constexpr std::int64_t steps_per_look = 10;
+/// Steps between two looks at load and step; the force lags by at most as many.
+constexpr std::int64_t steps_per_look = 25;
 
 double interpolated(const RunAlone& run, double time) {
   const auto next = std::upper_bound(run.load_time.begin(), run.load_time.end(), time);
@@ -101,22 +101,27 @@ RunFigures run_alone(const proto::CaseFile& file, const BedSource& source, const
   bed.reset_clock();
   OutputClock output(bed, file, out);
   RunFigures figures;
-  figures.step = bed.largest_step();
-  const auto n_steps = static_cast<std::int64_t>(std::ceil(run.duration / figures.step));
   std::optional<PressingFoot> foot;
   if (!run.load_time.empty()) foot.emplace(bed, interpolated(run, 0.0));
   const auto begin = std::chrono::steady_clock::now();
-  while (figures.steps < n_steps) {
-    const std::int64_t n = std::min(steps_per_look, n_steps - figures.steps);
-    const double end = figures.step * static_cast<double>(figures.steps + n);
+  figures.smallest_step = run.duration;
+  for (std::int64_t look = 1; run.duration - bed.state().time > 1e-9 * bed.largest_step(); ++look) {
+    const double left = run.duration - bed.state().time;
+    bed.find_step(steps_per_look * bed.largest_step());
+    const auto wanted = static_cast<std::int64_t>(std::ceil(left / bed.largest_step()));
+    const std::int64_t n = std::min(steps_per_look, wanted);
+    const double dt = n == wanted ? left / static_cast<double>(n) : bed.largest_step();
+    const double end = bed.state().time + dt * static_cast<double>(n);
     if (foot) {
-      foot->advance(figures.step, n, interpolated(run, end));
+      foot->advance(dt, n, interpolated(run, end));
     } else {
-      bed.engine().advance(bed.state(), figures.step, n);
+      bed.engine().advance(bed.state(), dt, n);
     }
     figures.steps += n;
+    figures.largest_step = std::max(figures.largest_step, dt);
+    figures.smallest_step = std::min(figures.smallest_step, dt);
     output.look();
-    if (report && figures.steps % (100 * steps_per_look) == 0) report(end);
+    if (report && look % 40 == 0) report(end);
   }
   figures.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   figures.element_updates_per_s =

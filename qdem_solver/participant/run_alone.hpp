@@ -13,7 +13,7 @@ namespace qdem {
 /// What a run came to.
 struct RunFigures {
   std::int64_t steps = 0;
-  double step = 0.0;  ///< [s]
+  double smallest_step = 0.0, largest_step = 0.0;  ///< [s]
   double wall = 0.0;  ///< integration only [s]
   double element_updates_per_s = 0.0;
   double kinetic_energy = 0.0;        ///< at the end [J]

@@ -37,8 +37,12 @@ class TrackBed {
   const Model& model() const { return bed_.model; }
   State& state() { return bed_.state; }
   Engine& engine() { return *engine_; }
-  double largest_step() const { return largest_step_; }           ///< safety included [s]
+  double largest_step() const { return largest_step_; }           ///< as last found, safety included [s]
   double relaxation_step() const { return relaxation_->step(); }  ///< the same while relaxing [s]
+
+  /// Finds largest_step() for the next `duration` [s] of motion: contacts that may form meanwhile count. Never above the
+  /// case's largest_step_s.
+  void find_step(double duration);
 
   /// From now on bodies are relaxed: Cundall's damping, and inertia that makes relaxation_step() stable.
   void relax();
@@ -59,7 +63,7 @@ class TrackBed {
   proto::Attributes attributes(const proto::CaseFile& file) const;
 
  private:
-  void find_step(const proto::CaseFile& file);
+  void check_step(const proto::CaseFile& file) const;
 
   QdemCase settings_;
   std::vector<proto::RailSeat> seats_;
@@ -67,8 +71,8 @@ class TrackBed {
   State rest_;
   std::unique_ptr<Engine> engine_;
   std::optional<Relaxation> relaxation_;
-  StabilityReport stability_;
-  double largest_step_ = 0.0;
+  std::optional<StepBound> bound_;
+  double step_bound_ = 0.0, largest_step_ = 0.0;
 };
 
 /// Checks `[qdem]` and `[[rail_seat]]`. Throws proto::Error (config).

@@ -17,8 +17,8 @@ struct Golden {
   std::string hex;
 };
 
-Message result(std::optional<double> residual) {
-  Result body{Phase::initialise, 3, 0, 0.25, {}, residual};
+Message result(std::optional<double> residual, std::optional<double> largest_step_s = {}) {
+  Result body{Phase::initialise, 3, 0, 0.25, {}, residual, largest_step_s};
   body.data.set(field::impulse, {1.0, -2.5, 0.125});
   return {0x1122334455667788u, 6, 5, body};
 }
@@ -37,6 +37,12 @@ const std::vector<Golden> golden = {
      "00092c0000008877665544332211060000000000000005000000000000001000240000000800000010000400180010000000"
      "200000000300000000000000000000000000d03ffca9f1d24d62703f00000000010000000c00000008000c00040008000800"
      "0000080000001000000007000000696d70756c73650003000000000000000000f03f00000000000004c0000000000000c03f"},
+    {result(4e-3, 5e-7),  // 1.2
+     "51464331c800000014d485f7b79c1f2c1c000000514643310000000000000e002a000c0014001c00070008000e0000000000"
+     "00093400000088776655443322110600000000000000050000000000000000000000000012002c0000000800000010000400"
+     "1800200012000000280000000300000000000000000000000000d03ffca9f1d24d62703f8dedb5a0f7c6a03e000000000100"
+     "00000c00000008000c000400080008000000080000001000000007000000696d70756c73650003000000000000000000f03f"
+     "00000000000004c0000000000000c03f"},
 };
 
 std::string hexadecimal(const std::vector<std::uint8_t>& bytes) {
@@ -65,8 +71,8 @@ TEST(GoldenFrame, is_still_read) {
 
 TEST(Schema, its_hash_belongs_to_this_protocol_version) {
   EXPECT_EQ(protocol_major, 1u);
-  EXPECT_EQ(protocol_minor, 1u);
-  EXPECT_EQ(schema_hash(), 1637813647070026578u)
+  EXPECT_EQ(protocol_minor, 2u);
+  EXPECT_EQ(schema_hash(), 900458513386005680u)
       << "the schema changed: raise the version, and say so in proto/README.md";
 }
 

@@ -127,9 +127,27 @@ TEST(QdemParticipant, RollbackRepeatsTheWindowBitwise) {
   driver.participant_.start();
   for (int n = 0; n < 3; ++n) driver.march(n), driver.commit(n);
   const auto first = driver.march(3);
+  const auto first_step = driver.participant_.largest_step();
   driver.participant_.rollback({3});
   const auto second = driver.march(3);
+  EXPECT_EQ(first_step, driver.participant_.largest_step());
   for (const auto& values : first.all()) EXPECT_EQ(values.values, second.get(values.name)) << values.name;
+}
+
+TEST(QdemParticipant, NamesTheStepOfTheNextWindow) {
+  Driver driver;
+  driver.relax(20);
+  driver.participant_.start();
+  const double touching = driver.participant_.largest_step().value();
+  for (std::size_t i = 2; i < 12; i += 3) driver.rail_[i] += 2e-3;  // lifts the sleeper off its stones
+  double apart = touching;
+  for (int n = 0; n < 100; ++n) {
+    driver.sub_cycles_ = static_cast<std::uint32_t>(std::ceil(window / apart));
+    driver.march(n);
+    driver.participant_.commit({n});
+    apart = driver.participant_.largest_step().value();
+  }
+  EXPECT_GT(apart, 1.05 * touching);
 }
 
 TEST(QdemParticipant, RefusesAStepAboveTheBound) {

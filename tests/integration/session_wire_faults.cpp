@@ -52,7 +52,7 @@ TEST_F(Endpoint, another_protocol_version_is_rejected_with_both_numbers) {
     EXPECT_EQ(event.participant, "");
     const auto reason = std::get<Reject>(dealer.receive().body).reason;
     EXPECT_EQ(reason, "it speaks protocol version " + std::to_string(major) + "." + std::to_string(minor) +
-                          ", the coupler 1.1");
+                          ", the coupler 1.2");
     EXPECT_EQ(event.problem, "'mock' was rejected: " + reason);
   }
 }

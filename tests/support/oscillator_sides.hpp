@@ -80,7 +80,7 @@ inline proto::Result RailModel::advance(const proto::Advance& request) {
   const double force_robin = k * ((u_ + u1) / 2 - x) + c * ((u1 - u_) / h - y);
   const double force_used = robin ? force_robin - carry : request.data.get(proto::field::force_mean).at(0);
   u_ = u1, v_ = v1;
-  proto::Result result{request.phase, request.window, 0, 0.0, {}, {}};
+  proto::Result result{request.phase, request.window, 0, 0.0, {}};
   result.data.set(proto::field::rail_displacement, {u1});
   result.data.set(proto::field::rail_velocity, {v1});
   if (robin) result.data.set(proto::field::force_robin, {force_robin});
@@ -104,7 +104,7 @@ inline proto::Result SleeperModel::advance(const proto::Advance& request) {
     work += (f + f_next) / 2 * (u_next - u);
     u = u_next, f = f_next;
   }
-  proto::Result result{request.phase, request.window, 0, 0.0, {}, {}};
+  proto::Result result{request.phase, request.window, 0, 0.0, {}};
   result.data.set(proto::field::impulse, {impulse});
   result.data.set(proto::field::pad_work, {work});
   result.data.set(proto::field::sleeper_displacement, {x_});

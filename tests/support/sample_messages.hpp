@@ -55,7 +55,7 @@ inline auto tied(const Advance& m) {
   return std::tie(m.phase, m.window, m.iteration, m.window_s, m.sub_cycles, m.data);
 }
 inline auto tied(const Result& m) {
-  return std::tie(m.phase, m.window, m.iteration, m.compute_s, m.data, m.residual);
+  return std::tie(m.phase, m.window, m.iteration, m.compute_s, m.data, m.residual, m.largest_step_s);
 }
 inline auto tied(const Commit& m) {
   return std::tie(m.window);

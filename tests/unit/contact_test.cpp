@@ -247,6 +247,43 @@ TEST(ContactStage, ARestoredStateIsComputedAfresh) {
   EXPECT_GT(stage.report(state).live, 0);
 }
 
+TEST(ContactRates, AContactWithAPlaneIsThatOfItsBodyAlone) {
+  qdem::Model model = model_of_boxes(2);
+  model.planes.push_back({"ground", {0, 0, 0}, Vector3d::UnitZ(), Vector3d::Zero(), 0.5, true, true});
+  const double half = 0.02 * model.bodies[1].scale;
+  const qdem::Placement aloft{Eigen::Matrix3d::Identity(), {0.5, 0, 1}},
+      resting{Eigen::Matrix3d::Identity(), {0, 0, half + 1e-3}};
+  qdem::State state = make_state(model, {aloft, resting});
+  qdem::ContactStage stage(model);
+  stage.update_candidates(state);
+  const auto rates = stage.rates(state, 1e-6);
+  EXPECT_EQ(rates[0].rigid, 0.0);
+  EXPECT_EQ(rates[0].particle.stiffness, 0.0);
+  // Nine nodes of the bottom face, each with the whole stiffness, half as much again (contact_rates.cpp).
+  const double k = 1.5 * model.contact.normal_stiffness;
+  EXPECT_GT(rates[1].rigid, 9 * k / model.body_mass(1));
+  double lightest = model.node_mass(1, 0);
+  for (int i = 0; i < 9; ++i) lightest = std::min(lightest, model.node_mass(1, i));  // the bottom nodes come first
+  EXPECT_TRUE(near_rel(rates[1].particle.stiffness, k / lightest, 1e-14));
+  EXPECT_TRUE(near_rel(rates[1].particle.damping, 2 * 0.1 * std::sqrt(k / lightest), 1e-14));
+}
+
+TEST(ContactRates, OnlyWhatIsNearCounts) {
+  const qdem::Model model = model_of_boxes(2);
+  const double touching = 0.02 * (model.bodies[0].scale + model.bodies[1].scale) + 2e-3;
+  qdem::State state =
+      make_state(model, {qdem::Placement{}, {Eigen::Matrix3d::Identity(), {0, 0, touching + 0.2e-3}}});
+  for (double& v : state.v) v = 0;
+  qdem::ContactStage stage(model);
+  stage.update_candidates(state);
+  EXPECT_GT(stage.rates(state, 0.25e-3)[0].particle.stiffness, 0.0);
+  EXPECT_EQ(stage.rates(state, 0.15e-3)[0].particle.stiffness, 0.0);
+  // The same once the stage knows from its forces how far apart they are.
+  stage.compute(state, 1e-6);
+  EXPECT_GT(stage.rates(state, 0.25e-3)[0].particle.stiffness, 0.0);
+  EXPECT_EQ(stage.rates(state, 0.15e-3)[0].particle.stiffness, 0.0);
+}
+
 TEST(ContactStage, APlaneCarriesABoxAtItsSignedDistance) {
   qdem::Model model = model_of_boxes(1);
   model.planes.push_back({"ground", {0, 0, -0.1}, Vector3d::UnitZ(), Vector3d(0, 0, 0.01), 0.5, true, true});

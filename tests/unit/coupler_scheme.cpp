@@ -20,11 +20,27 @@ struct Run {
   double raw_defect = 0.0, momentum_sum = 0.0;  // R_n and sum of P at the last window
 };
 
+/// An explicit side whose stability bound changes from window to window.
+class FitfulSleeper : public tests::SleeperModel {
+ public:
+  using tests::SleeperModel::SleeperModel;
+  static constexpr std::uint32_t sub_cycles_of(std::int64_t window) {
+    return static_cast<std::uint32_t>(3 + window % 4);
+  }
+  proto::Result advance(const proto::Advance& request) override {
+    EXPECT_EQ(request.sub_cycles, sub_cycles_of(request.window));
+    auto result = tests::SleeperModel::advance(request);
+    result.largest_step_s = request.window_s / sub_cycles_of(request.window + 1);
+    return result;
+  }
+};
+
+template <class Sleeper = tests::SleeperModel>
 Run run(Scheme scheme, int n_windows, std::uint32_t sub_cycles) {
   const tests::Oscillator oscillator;
   const double h = end_time / n_windows;
   tests::RailModel rail(oscillator);
-  tests::SleeperModel sleeper(oscillator);
+  Sleeper sleeper(oscillator);
   WindowScheme windows(scheme, h, sub_cycles, {oscillator.pad});
   windows.start({{oscillator.u}, {oscillator.v}, {oscillator.x}, {oscillator.y}});
   Audit audit({1}, h);
@@ -51,11 +67,12 @@ Run run(Scheme scheme, int n_windows, std::uint32_t sub_cycles) {
   return result;
 }
 
+template <class Sleeper = tests::SleeperModel>
 double order(Scheme scheme, std::uint32_t sub_cycles) {
   std::vector<double> steps, errors;
   for (int n : {160, 320, 640}) {
     steps.push_back(end_time / n);
-    errors.push_back(run(scheme, n, sub_cycles).error);
+    errors.push_back(run<Sleeper>(scheme, n, sub_cycles).error);
   }
   return tests::fitted_order(steps, errors);
 }
@@ -63,6 +80,11 @@ double order(Scheme scheme, std::uint32_t sub_cycles) {
 TEST(WindowScheme, R1IsOfSecondOrder) {
   EXPECT_TRUE(tests::near_abs(order(Scheme::robin_explicit, 1), 2.0, 0.15));
   EXPECT_TRUE(tests::near_abs(order(Scheme::robin_explicit, 10), 2.0, 0.15));
+}
+
+TEST(WindowScheme, EveryWindowGetsTheSubCyclesOfItsOwnBound) {
+  const auto first = FitfulSleeper::sub_cycles_of(0);
+  EXPECT_TRUE(tests::near_abs(order<FitfulSleeper>(Scheme::robin_explicit, first), 2.0, 0.15));
 }
 
 TEST(WindowScheme, E1IsReportedAsFirstOrder) {

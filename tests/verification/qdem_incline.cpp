@@ -20,7 +20,7 @@ class BlockOnPlane {
  public:
   BlockOnPlane() : model_(block()), state_(qdem::make_state(model_, {place()})), engine_(model_, {1}) {
     engine_.prepare(state_);
-    dt_ = 0.5 * qdem::stability(model_, state_, engine_.contacts()).largest_step;
+    dt_ = 0.5 * qdem::StepBound(model_).at(state_, engine_.contacts(), qdem::near_gap(model_.contact));
     run(0.05);
   }
 

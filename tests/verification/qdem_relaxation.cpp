@@ -108,8 +108,8 @@ qdem::Model cubes() {
   auto model = tests::free_bodies(tests::box_template({2, 2, 2}, {0.04, 0.04, 0.04}), tests::rock(), 9);
   for (auto& body : model.bodies) body.kind = qdem::BodyKind::stone;
   model.gravity = {0, 0, -9.81};
-  model.contact = {1e6, 0.8, 0.2, 0.0, 1e-3};
-  model.planes.push_back({"ground", {0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 0.0});
+  model.contact = {1e6, 0.8, 0.2, 0.5, 1e-3};
+  model.planes.push_back({"ground", {0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 0.5});
   qdem::make_batches(model);
   return model;
 }
@@ -145,7 +145,7 @@ TEST(Relaxation, EndsAtTheRestOfTheTrueBody) {
   qdem::State truth = pressed(model);
   qdem::Engine engine(model);
   engine.prepare(truth);
-  const double dt = 0.8 * qdem::stability(model, truth, engine.contacts()).largest_step;
+  const double dt = 0.8 * qdem::StepBound(model).at(truth, engine.contacts(), qdem::near_gap(model.contact));
   std::int64_t true_steps = 0;
   do {
     engine.advance(truth, dt, 500);
