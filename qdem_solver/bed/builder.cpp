@@ -51,6 +51,7 @@ Bed Builder::build() {
   settle();
   harden();
   consolidate();
+  release();
   come_to_rest();
   finish();
   report_.build_wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -169,7 +170,7 @@ void Builder::pour_layer() {
   const double half = s.spacing / 2, gap = 2 * physics_.contact.rounding;
   add_planes();
   model_.planes.push_back({"wall", {0, s.wall(), 0}, -Vector3d::UnitY(), Vector3d::Zero(), 0.0, true, false});
-  soften({s.pour_young, s.pour_stiffness, s.pour_friction, 0.3, 0.0, physics_.gravity.norm() / s.pour_speed});
+  soften({s.pour_young, s.pour_stiffness, s.pour_friction, 0.0, physics_.gravity.norm() / s.pour_speed});
   // The sleeper waits above the pouring.
   hold_sleeper(7u);
   const double above = 2.0 + 6 * s.depth;
@@ -225,6 +226,24 @@ void Builder::strip() {
   state.time = state_.time, state.step = state_.step;
   state_ = std::move(state);
   add_planes();
+  lay_formwork();
+}
+
+void Builder::lay_formwork() {
+  const Vector3d out = Vector3d(0, 1, settings_.shoulder_slope).normalized();
+  double reach = 0.0;
+  for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
+    if (b == sleeper) continue;
+    for (const int node : model_.shape(b).surface_nodes)
+      reach = std::max(reach, out.dot(state_.position(model_, b, node)));
+  }
+  reach += physics_.contact.rounding;
+  model_.planes.push_back({"formwork", reach * out, -out, Vector3d::Zero(), 0.0, true, false});
+}
+
+void Builder::take_formwork_away() {
+  model_.planes.pop_back();
+  state_.contact.list_id = 0;  // the next list is without it, and keeps the other contacts' slip
 }
 
 Eigen::Vector3d Builder::body_centre(int body) const {

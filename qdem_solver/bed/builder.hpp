@@ -35,7 +35,7 @@ class Builder {
   /// How soft stones are in a stage, and how the motion is damped.
   struct Softness {
     double young, stiffness;  ///< of stones [Pa], of contacts [N/m]
-    double friction, damping_ratio;
+    double friction;
     double local_damping, drag;
   };
   /// Called every few steps with the time since the run began [s]; true ends it.
@@ -43,19 +43,27 @@ class Builder {
   void make_stones();
   void pour_layer();
   void pour_crib();
-  /// Formwork and stones beyond the profile go; the others get their true size and shape where they are, at rest.
+  /// The wall and stones beyond the profile go, a formwork comes; stones get their true size and shape where they are,
+  /// at rest.
   void strip();
   void settle();
   void harden();
+  /// Load cycles while friction is still that of pouring, which packs densely.
   void consolidate();
+  /// The formwork goes, friction gets its true value, and the load comes once more.
+  void release();
   void ramp_load(double from, double to);
   void come_to_rest();
+  bool at_rest() const;  ///< within the limits of the case, as last reported
   void finish();
   void check_limits() const;
 
   void add_planes();
   void soften(const Softness& softness);
   void add_stones(const std::vector<Stone>& stones, const std::vector<Rectangle>& floor, double bottom);
+  /// A frictionless board on the slope, as far out as the outermost stone.
+  void lay_formwork();
+  void take_formwork_away();
   void hold_sleeper(unsigned mask);
   void drop_contacts();
   void drop_spare_lanes();

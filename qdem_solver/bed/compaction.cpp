@@ -21,19 +21,20 @@ constexpr int steps_per_fit = 50;    // inertia is fitted to the contacts anew
 constexpr int steps_per_look = 25;
 constexpr int least_true_steps = 500, most_true_steps = 4000;  // at true masses, at the end
 
-constexpr double damping = 0.5;          // Cundall's
-constexpr double pouring_skin = 0.08;    // candidate lists live longer while stones move [d50]
-constexpr double tamping_speed = 0.2;    // [m/s]
-constexpr double tamped_speed = 0.02;    // [m/s], below which a tamped layer is at rest
-constexpr double parting_time = 0.1;     // [s], in which stones that overlap part
-constexpr double settling_time = 2.0;    // [s], at most
-constexpr double settling_drag = 30;     // [1/s]
-constexpr double rolling_drag = 5;       // [1/s], while stones of the shoulder roll down
-constexpr double calm_speed = 1e-3;      // [m/s], root mean square over the mass, before the bed is made harder
-constexpr double hardening_drag = 1.0;   // of the rattling frequency of a mean stone on one contact
-constexpr double heaved_share = 0.95;    // of the sleeper's weight; drag would keep a heavy sleeper down
-constexpr double share_of_limits = 0.5;  // rest is better than the case asks for
-constexpr double telling_interval = 5;   // [s] of work
+constexpr double damping = 0.5;           // Cundall's
+constexpr double contact_damping = 0.03;  // a ratio; rest does not depend on it, the relaxation's step does
+constexpr double pouring_skin = 0.08;     // candidate lists live longer while stones move [d50]
+constexpr double tamping_speed = 0.2;     // [m/s]
+constexpr double tamped_speed = 0.02;     // [m/s], below which a tamped layer is at rest
+constexpr double parting_time = 0.1;      // [s], in which stones that overlap part
+constexpr double settling_time = 1.0;     // [s], at most
+constexpr double settling_drag = 30;      // [1/s]
+constexpr double rolling_drag = 5;        // [1/s], while stones of the shoulder roll down
+constexpr double calm_speed = 1e-3;       // [m/s], root mean square over the mass, before the bed is made harder
+constexpr double hardening_drag = 1.0;    // of the rattling frequency of a mean stone on one contact
+constexpr double heaved_share = 0.95;     // of the sleeper's weight; drag would keep a heavy sleeper down
+constexpr double share_of_limits = 0.5;   // rest is better than the case asks for
+constexpr double telling_interval = 5;    // [s] of work
 constexpr unsigned held_along_track = 1u;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -54,7 +55,7 @@ void Builder::soften(const Softness& softness) {
   model_.contact.normal_stiffness = softness.stiffness;
   model_.contact.friction = softness.friction;
   if (falling_) model_.contact.skin = pouring_skin * settings_.gradation.size_at(0.5);
-  model_.contact.damping_ratio = std::max(softness.damping_ratio, physics_.contact.damping_ratio);
+  model_.contact.damping_ratio = contact_damping;
   model_.local_damping = softness.local_damping;
   model_.drag_per_s = softness.drag;
 }
@@ -155,11 +156,7 @@ Builder::Softness Builder::at_level(int level) const {
   const Settings& s = settings_;
   const double share = static_cast<double>(level) / s.ramp_levels;
   const double stiffness = s.pour_stiffness * std::pow(physics_.contact.normal_stiffness / s.pour_stiffness, share);
-  return {s.pour_young * std::pow(physics_.stone.young / s.pour_young, share),
-          stiffness,
-          physics_.contact.friction,
-          0.3,
-          damping,
+  return {s.pour_young * std::pow(physics_.stone.young / s.pour_young, share), stiffness, s.pour_friction, damping,
           settling_drag};
 }
 
@@ -195,13 +192,20 @@ void Builder::consolidate() {
   run_steps(s.preload_steps, {});
   for (int cycle = 0; cycle < s.preload_cycles; ++cycle) {
     ramp_load(0, s.preload);
-    if (cycle + 1 == s.preload_cycles) {
-      run_steps(s.preload_steps, {});
-      loaded_height_ = seat_height();
-    }
     ramp_load(s.preload, 0);
   }
   report_.sleeper_settlement = start - seat_height();
+}
+
+void Builder::release() {
+  stage_ = "releasing";
+  take_formwork_away();
+  model_.contact.friction = physics_.contact.friction;
+  if (settings_.preload_cycles == 0) return;
+  ramp_load(0, settings_.preload);
+  run_steps(settings_.preload_steps, {});
+  loaded_height_ = seat_height();
+  ramp_load(settings_.preload, 0);
 }
 
 void Builder::ramp_load(double from, double to) {
@@ -216,9 +220,17 @@ void Builder::come_to_rest() {
   stage_ = "coming to rest";
   const Settings& s = settings_;
   const Rest rest{0.0, share_of_limits * s.unbalanced_limit, share_of_limits * s.kinetic_limit};
-  run_steps(s.rest_steps, rest);
-  run_with_true_masses(least_true_steps, most_true_steps, rest);
+  const auto last = state_.step + s.rest_steps;
+  do {  // at true masses a stone may leave a place where scaled inertia held it
+    run_steps(static_cast<int>(last - state_.step), rest);
+    run_with_true_masses(least_true_steps, most_true_steps, rest);
+  } while (!at_rest() && state_.step < last);
   report_.stiffness = s.preload_cycles > 0 ? s.preload / (seat_height() - loaded_height_) : 0.0;
+}
+
+bool Builder::at_rest() const {
+  return report_.unbalanced_force_ratio <= settings_.unbalanced_limit &&
+         report_.kinetic_energy <= settings_.kinetic_limit;
 }
 
 void Builder::run_steps(int most, const Rest& rest) {

@@ -15,7 +15,7 @@ struct Touch {
   double overlap = 0.0;               ///< of the rounded surfaces [m], positive
   double normal_velocity = 0.0;       ///< rate of separation [m/s]
   Eigen::Vector3d relative_velocity;  ///< of a against b at the contact point [m/s]
-  double effective_mass = 0.0;        ///< m_a m_b / (m_a + m_b) of the two features [kg]
+  double effective_mass = 0.0;        ///< m_a m_b / (m_a + m_b) of the two bodies [kg]
   double share = 1.0;                 ///< factor on the tangential spring and both dashpots, see edge_pair.hpp [-]
 };
 
@@ -28,7 +28,8 @@ struct TouchForce {
 
 /// F_n = max(0, k_n delta - c_n v_n);  u_t turned into the tangent plane, then advanced by v_t dt;
 /// F_t = -k_t u_t - c_t v_t, limited to mu F_n with u_t reset so that the spring carries the limit.
-/// c = 2 zeta sqrt(m_eff k). The standard DEM law (Cundall and Strack 1979).
+/// c = 2 zeta sqrt(m_eff k), so that bodies that meet in one point part with the restitution that zeta stands for. The
+/// standard DEM law (Cundall and Strack 1979).
 class VoigtCoulombLaw {
  public:
   HOUSE_HOST_DEVICE VoigtCoulombLaw(const ContactLaw& law, double friction)

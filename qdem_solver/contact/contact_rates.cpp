@@ -43,14 +43,6 @@ double ContactRateSums::RigidBody::mobility(const Vector3d& point) const {
   return inverse_mass + (cross * inverse_inertia * cross.transpose()).norm();
 }
 
-double ContactRateSums::inverse_mass(const Share& share) const {
-  double inverse = 0.0;
-  for (int i = 0; i < share.n; ++i) {
-    inverse += share.weights[i] * share.weights[i] / skins_[share.body].node_mass(share.nodes[i]);
-  }
-  return inverse;
-}
-
 void ContactRateSums::add_share(const Share& share, const Vector3d& point, double stiffness, double damping) {
   const BodySkin& skin = skins_[share.body];
   for (int i = 0; i < share.n; ++i) {
@@ -58,10 +50,11 @@ void ContactRateSums::add_share(const Share& share, const Vector3d& point, doubl
     Rates& row = particles_[skin.offset + 3 * skin.stride * share.nodes[i]];
     row = row + Rates{stiffness * per_mass, damping * per_mass};
   }
-  rates_[share.body].rigid += stiffness * bodies_[share.body].mobility(point);
+  const double mobility = bodies_[share.body].mobility(point);
+  rates_[share.body].rigid = rates_[share.body].rigid + Rates{stiffness * mobility, damping * mobility};
 }
 
-ContactRateSums::Approach ContactRateSums::approach(std::size_t entry) const {
+std::optional<ContactRateSums::Approach> ContactRateSums::approach(std::size_t entry) const {
   const ContactState& contact = state_.contact;
   const ContactKey& key = contact.keys[entry];
   const double* x = state_.x.data();
@@ -71,36 +64,38 @@ ContactRateSums::Approach ContactRateSums::approach(std::size_t entry) const {
   if (key.is_plane()) {
     const Plane& plane = model_.planes[~key.body_b];
     const Vector3d point = a.at(x, key.feature_a);
-    return {plane.normal.dot(point - plane.point - state_.time * plane.velocity) - rounding, point, node, {}};
+    const double height = plane.normal.dot(point - plane.point - state_.time * plane.velocity);
+    return height - rounding > gap_ ? std::optional<Approach>() : Approach{point, node, {}};
   }
   const BodySkin& b = skins_[key.body_b];
   if (key.is_edge_pair()) {
-    const EdgeNow ea(a, x, key.feature_a), eb(b, x, key.feature_b);
-    const LinePair pair = closest_on_lines(ea.x[0], ea.direction(), eb.x[0], eb.direction());
-    const double s = pair.crossing ? pair.s : 0.5, t = pair.crossing ? pair.t : 0.5;
+    // Edges that would not touch with surfaces rounded by the gap more have no force, or one that grows from zero.
+    const EdgeContact touch = touch_edges(a, key.feature_a, b, key.feature_b, x, 2 * rounding + gap_);
+    if (!touch.touching) return {};
     const auto &na = a.shape->edges[key.feature_a].nodes, &nb = b.shape->edges[key.feature_b].nodes;
-    return {std::sqrt(segment_distance2(ea.x[0], ea.x[1], eb.x[0], eb.x[1])) - 2 * rounding,
-            ea.at(s),
-            {key.body_a, 2, {na[0], na[1]}, {1 - s, s}},
-            Share{key.body_b, 2, {nb[0], nb[1]}, {1 - t, t}}};
+    return Approach{EdgeNow(a, x, key.feature_a).at(touch.s),
+                    {key.body_a, 2, {na[0], na[1]}, {1 - touch.s, touch.s}},
+                    Share{key.body_b, 2, {nb[0], nb[1]}, {1 - touch.t, touch.t}}};
   }
   const Vector3d point = a.at(x, key.feature_a);
   const SurfacePoint nearest =
       nearest_surface_point(b, x, point, contact.triangles.data() + contact.triangle_offsets[entry],
                             contact.triangles.data() + contact.triangle_offsets[entry + 1]);
+  if (nearest.distance - 2 * rounding > gap_) return {};
   const auto& w = nearest.weights;
   const Share facet{key.body_b, 3, b.shape->triangles[nearest.triangle].nodes, {w[0], w[1], w[2]}};
-  return {nearest.distance - 2 * rounding, point, node, facet};
+  return Approach{point, node, facet};
 }
 
 void ContactRateSums::add(std::size_t entry) {
-  const Approach approach = this->approach(entry);
-  if (approach.distance > gap_) return;
-  const double sides = approach.other ? 2 : 1;
-  const double inverse = inverse_mass(approach.share) + (approach.other ? inverse_mass(*approach.other) : 0.0);
-  const double dashpot = 2 * model_.contact.damping_ratio * std::sqrt(stiffness_ / inverse);
-  add_share(approach.share, approach.point, sides * stiffness_, sides * dashpot);
-  if (approach.other) add_share(*approach.other, approach.point, sides * stiffness_, sides * dashpot);
+  const auto near = approach(entry);
+  if (!near) return;
+  const double sides = near->other ? 2 : 1;
+  const BodySkin& a = skins_[near->share.body];
+  const double mass = near->other ? reduced_mass(a, skins_[near->other->body]) : a.mass;
+  const double dashpot = 2 * model_.contact.damping_ratio * std::sqrt(stiffness_ * mass);
+  add_share(near->share, near->point, sides * stiffness_, sides * dashpot);
+  if (near->other) add_share(*near->other, near->point, sides * stiffness_, sides * dashpot);
 }
 
 std::vector<ContactRates> ContactRateSums::result() const {

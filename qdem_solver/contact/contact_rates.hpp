@@ -14,8 +14,8 @@ namespace qdem {
 ///
 /// A contact of stiffness k between bodies a and b has the energy k/2 |J_a u_a - J_b u_b|^2 <= k (|J_a u_a|^2 + |J_b
 /// u_b|^2), so that twice its stiffness may be given to either body alone; against a plane it is the body's alone. The
-/// same holds of its dashpot. For a rigid body J M^-1 J^T = 1/m + [r] I^-1 [r]^T, [r] the cross product with the point's
-/// arm; for particles, row sums bound it (Gershgorin).
+/// same holds of its dashpot. For a rigid body J M^-1 J^T = 1/m + [r] I^-1 [r]^T, [r] the cross product with the
+/// point's arm; for particles, row sums bound it (Gershgorin).
 class ContactRateSums {
  public:
   ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const State& state, double gap);
@@ -38,16 +38,15 @@ class ContactRateSums {
     std::array<double, 3> weights{};
   };
 
-  /// How near the two sides of an entry are, and what its force acts on.
+  /// Where the force of an entry acts.
   struct Approach {
-    double distance;  ///< between the rounded surfaces [m]
     Eigen::Vector3d point;
     Share share;
     std::optional<Share> other;  ///< planes have none
   };
 
-  Approach approach(std::size_t entry) const;
-  double inverse_mass(const Share& share) const;  ///< of the point it holds [1/kg]
+  /// Nothing for an entry that is farther apart than the gap.
+  std::optional<Approach> approach(std::size_t entry) const;
   void add_share(const Share& share, const Eigen::Vector3d& point, double stiffness, double damping);
 
   const std::vector<BodySkin>& skins_;

@@ -21,8 +21,8 @@ struct ContactReport {
 
 /// Upper bounds of what contacts add to one body.
 struct ContactRates {
-  Rates particle;      ///< largest row sums over its particles
-  double rigid = 0.0;  ///< squared angular frequency of its motion as a rigid body [1/s2]
+  Rates particle;  ///< largest row sums over its particles
+  Rates rigid;     ///< of its motion as a rigid body
 };
 
 /// Gap below which bodies that hardly move are taken as touching [m].

@@ -58,14 +58,10 @@ inline EntryForce push_node(const ContactLaw& law, const BodySkin& a, int node, 
   const TriangleFrame frame(TriangleNow(b, motion.x, point.triangle), p);
   const auto vb = detail::corner_velocities(b, motion.v, corners);
   const Eigen::Vector3d va = a.at(motion.v, node);
-  double inverse_mass = 1 / a.node_mass(node);
   Eigen::Vector3d vp = va;
-  for (int k = 0; k < 3; ++k) {
-    vp -= point.weights[k] * vb[k];
-    inverse_mass += point.weights[k] * point.weights[k] / b.node_mass(corners[k]);
-  }
+  for (int k = 0; k < 3; ++k) vp -= point.weights[k] * vb[k];
   Touch touch;
-  touch.normal = point.normal, touch.overlap = overlap, touch.effective_mass = 1 / inverse_mass;
+  touch.normal = point.normal, touch.overlap = overlap, touch.effective_mass = reduced_mass(a, b);
   touch.normal_velocity = point.normal.dot(vp);
   touch.relative_velocity = va - frame.velocity(vb);
   const TouchForce force = VoigtCoulombLaw(law, law.friction).push(touch, slip, motion.dt);
@@ -108,9 +104,8 @@ inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_
   const TriangleFrame frame(TriangleNow(b, motion.x, face), pa);
   const auto vb = detail::corner_velocities(b, motion.v, corners);
   const Eigen::Vector3d va = wa[0] * a.at(motion.v, ends_a[0]) + wa[1] * a.at(motion.v, ends_a[1]);
-  double inverse_mass = wa[0] * wa[0] / a.node_mass(ends_a[0]) + wa[1] * wa[1] / a.node_mass(ends_a[1]);
   Eigen::Vector3d vp = va;
-  for (int k = 0; k < 3; ++k) vp -= wb[k] * vb[k], inverse_mass += wb[k] * wb[k] / b.node_mass(corners[k]);
+  for (int k = 0; k < 3; ++k) vp -= wb[k] * vb[k];
 
   Touch touch;
   // Edges that passed each other: the line to an end no longer shows the way out, so the share acts on the normal
@@ -118,7 +113,7 @@ inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_
   const bool inside = contact.overlap > reach;
   touch.normal = contact.normal;
   touch.overlap = (inside ? contact.share() : contact.facing) * contact.overlap;
-  touch.effective_mass = 1 / inverse_mass, touch.share = contact.share();
+  touch.effective_mass = reduced_mass(a, b), touch.share = contact.share();
   touch.normal_velocity = contact.normal.dot(vp);
   touch.relative_velocity = va - frame.velocity(vb);
   const TouchForce force = VoigtCoulombLaw(law, law.friction).push(touch, slip, motion.dt);
@@ -169,7 +164,7 @@ inline EntryForce push_on_plane(const ContactLaw& law, const BodySkin& a, int no
     return result;
   }
   Touch touch;
-  touch.normal = n, touch.overlap = overlap, touch.effective_mass = a.node_mass(node);
+  touch.normal = n, touch.overlap = overlap, touch.effective_mass = a.mass;
   touch.relative_velocity = a.at(motion.v, node) - plane.velocity;
   touch.normal_velocity = n.dot(touch.relative_velocity);
   const TouchForce force = VoigtCoulombLaw(law, plane.friction).push(touch, slip, motion.dt);

@@ -21,36 +21,30 @@ double lightest_particle(const Model& model, int body) {
   return least;
 }
 
-/// Contact points on a body whose mobility is that of a sphere's surface, 1/m + r^2/I = 3.5/m.
-double rigid_rate(const Model& model, double mass, int n_contacts) {
+/// `n` contacts of a body of this mass, each of which moves `moved_mass` alone: its stiffness, and the dashpot
+/// 2 zeta sqrt(m k), over the moved mass; doubled for the two sides.
+Rates contacts_of(const Model& model, int n, double mass, double moved_mass) {
   const double stiffness = model.contact.normal_stiffness * std::max(1.0, model.contact.tangential_ratio);
-  return n_contacts * stiffness * 2 * 3.5 / mass;
+  const double dashpot = 2 * model.contact.damping_ratio * std::sqrt(mass * stiffness);
+  return {2 * n * stiffness / moved_mass, 2 * n * dashpot / moved_mass};
 }
 
-/// `n` contacts of a particle with bodies as heavy as it may be: k and c = 2 zeta sqrt(m k), doubled for the two sides.
-Rates contacts_of(const Model& model, int n, double particle_mass) {
-  const double stiffness = model.contact.normal_stiffness * std::max(1.0, model.contact.tangential_ratio);
-  const double dashpot = 2 * model.contact.damping_ratio * std::sqrt(particle_mass * stiffness);
-  return {2 * n * stiffness / particle_mass, 2 * n * dashpot / particle_mass};
-}
-
-/// Dashpots of rigid motion: c = 2 zeta sqrt(m_eff k), with the mass of a particle at most.
-Rates with_dashpots(const Model& model, double stiffness, double particle_mass) {
-  const double c_over_k = 2 * model.contact.damping_ratio * std::sqrt(particle_mass / model.contact.normal_stiffness);
-  return {stiffness, c_over_k * stiffness};
+/// Contact points on a rigid body whose mobility is that of a sphere's surface, 1/m + r^2/I = 3.5/m.
+Rates rigid_contacts(const Model& model, int n, double mass) {
+  return contacts_of(model, n, mass, mass / 3.5);
 }
 
 }  // namespace
 
 double relaxation_step(const Model& model, int n_contacts, double safety) {
-  double mass = 0.0, particle = 0.0;
+  double mass = 0.0;
   int n = 0;
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
     if (model.bodies[b].kind != BodyKind::stone) continue;
-    mass += model.body_mass(b), particle += lightest_particle(model, b);
+    mass += model.body_mass(b);
     ++n;
   }
-  const Rates rates = with_dashpots(model, rigid_rate(model, mass / n, n_contacts), particle / n);
+  const Rates rates = rigid_contacts(model, n_contacts, mass / n);
   const Rates doubled{rates.stiffness / budget, rates.damping / budget};
   return safety * largest_stable_step(doubled);
 }
@@ -74,11 +68,10 @@ void Relaxation::fit(const Engine& engine, const State& state) {
   const auto contacts = engine.contacts().rates(state, near_gap(model_.contact));
   model_.inertia.resize(model_.bodies.size());
   for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
-    const double particle = lightest_particle(model_, b);
-    const double pushed = std::max(contacts[b].rigid, rigid_rate(model_, model_.body_mass(b), n_contacts_));
-    const Rates touched = contacts_of(model_, contacts_of_a_particle, particle);
+    const double mass = model_.body_mass(b);
+    const Rates touched = contacts_of(model_, contacts_of_a_particle, mass, lightest_particle(model_, b));
     Rates deformation = elements_[b] + larger(contacts[b].particle, touched);
-    Rates rigid = with_dashpots(model_, pushed, particle);
+    Rates rigid = larger(contacts[b].rigid, rigid_contacts(model_, n_contacts_, mass));
     if (b == model_.pad_body) deformation = deformation + pads_, rigid = rigid + pads_;
     model_.inertia[b].deformation = std::max(1.0, demand(deformation, dt) / budget);
     model_.inertia[b].rigid = std::max(1.0, demand(rigid, dt) / budget);

@@ -67,8 +67,8 @@ double largest_eigenvalue(const ScaledStiffness& op, Eigen::Index n) {
     if (beta < 1e-12 * std::abs(diagonal[0])) break;
     before = now, now = next / beta;
   }
-  // As a full matrix: computeFromTridiagonal does not scale its input, and gave 1/30 of the largest eigenvalue for stones
-  // with one stiff sliver.
+  // As a full matrix: computeFromTridiagonal does not scale its input, and gave 1/30 of the largest eigenvalue for
+  // stones with one stiff sliver.
   Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(done, done);
   projected.diagonal() = diagonal.head(done);
   if (done > 1) projected.diagonal(1) = projected.diagonal(-1) = off.head(done - 1);

@@ -91,7 +91,7 @@ struct Plane {
 struct ContactLaw {
   double normal_stiffness = 0.0;     ///< k_n [N/m]
   double tangential_ratio = 0.8;     ///< k_t / k_n [-]
-  double damping_ratio = 0.0;        ///< zeta of the contact dashpots, against the effective mass of the two features [-]
+  double damping_ratio = 0.0;        ///< zeta of the contact dashpots, against the reduced mass of the two bodies [-]
   double friction = 0.0;             ///< [-]
   double rounding = 0.0;             ///< radius by which every surface is rounded [m]
   double skin = 0.0;                 ///< how much farther than touching the candidate list reaches [m]; 0: the rounding

@@ -80,7 +80,7 @@ lame_viscosity_pa_s = 300
 shear_viscosity_pa_s = 400
 [qdem.contact]
 normal_stiffness_n_per_m = 1e6
-damping_ratio = 0.3
+damping_ratio = 0.05
 friction = 0.6
 rounding_m = 1e-3
 )";

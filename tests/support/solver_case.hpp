@@ -78,7 +78,7 @@ retardation_time_s = 1e-6
 
 [qdem.contact]
 normal_stiffness_n_per_m = 1e6
-damping_ratio = 0.3
+damping_ratio = 0.05
 friction = 0.6
 rounding_m = 1e-3
 

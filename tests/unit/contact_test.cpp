@@ -257,22 +257,21 @@ TEST(ContactRates, AContactWithAPlaneIsThatOfItsBodyAlone) {
   qdem::ContactStage stage(model);
   stage.update_candidates(state);
   const auto rates = stage.rates(state, 1e-6);
-  EXPECT_EQ(rates[0].rigid, 0.0);
+  EXPECT_EQ(rates[0].rigid.stiffness, 0.0);
   EXPECT_EQ(rates[0].particle.stiffness, 0.0);
   // Nine nodes of the bottom face, each with the whole stiffness, half as much again (contact_rates.cpp).
   const double k = 1.5 * model.contact.normal_stiffness;
-  EXPECT_GT(rates[1].rigid, 9 * k / model.body_mass(1));
+  EXPECT_GT(rates[1].rigid.stiffness, 9 * k / model.body_mass(1));
   double lightest = model.node_mass(1, 0);
   for (int i = 0; i < 9; ++i) lightest = std::min(lightest, model.node_mass(1, i));  // the bottom nodes come first
   EXPECT_TRUE(near_rel(rates[1].particle.stiffness, k / lightest, 1e-14));
-  EXPECT_TRUE(near_rel(rates[1].particle.damping, 2 * 0.1 * std::sqrt(k / lightest), 1e-14));
+  EXPECT_TRUE(near_rel(rates[1].particle.damping, 2 * 0.1 * std::sqrt(k * model.body_mass(1)) / lightest, 1e-14));
 }
 
 TEST(ContactRates, OnlyWhatIsNearCounts) {
   const qdem::Model model = model_of_boxes(2);
   const double touching = 0.02 * (model.bodies[0].scale + model.bodies[1].scale) + 2e-3;
-  qdem::State state =
-      make_state(model, {qdem::Placement{}, {Eigen::Matrix3d::Identity(), {0, 0, touching + 0.2e-3}}});
+  qdem::State state = make_state(model, {qdem::Placement{}, {Eigen::Matrix3d::Identity(), {0, 0, touching + 0.2e-3}}});
   for (double& v : state.v) v = 0;
   qdem::ContactStage stage(model);
   stage.update_candidates(state);

@@ -42,6 +42,7 @@ porosity_limits = [0.3, 0.65]
 unbalanced_limit = 0.02
 kinetic_energy_limit_j = 0.01
 rest_steps = 200000
+preload_n = 8e3
 )";
 
 qdem::BedPhysics rock() {
