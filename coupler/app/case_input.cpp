@@ -13,10 +13,6 @@ CaseInput read_case(const std::string& path) {
   return {std::move(file), std::move(coupling), std::move(seats)};
 }
 
-const char* name_of(proto::Scheme scheme) {
-  return scheme == proto::Scheme::robin_explicit ? "R1" : "E1";
-}
-
 std::vector<proto::ParticipantSpec> find_participants(const CaseInput& input) {
   std::vector<proto::ParticipantSpec> result{input.coupling.qdem, input.coupling.fem};
   for (auto& spec : result)

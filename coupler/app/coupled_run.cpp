@@ -44,8 +44,8 @@ proto::Configure configure_request(const CaseInput& input, const std::string& ou
   proto::Configure request;
   request.window_s = input.coupling.window_s;
   request.windows = input.coupling.n_windows;
-  request.mode = input.coupling.scheme == proto::Scheme::robin_explicit ? proto::LoadMode::robin
-                                                                        : proto::LoadMode::prescribed_force;
+  const bool robin = proto::uses_robin(input.coupling.scheme);
+  request.mode = robin ? proto::LoadMode::robin : proto::LoadMode::prescribed_force;
   request.output_directory = out;
   for (const auto& law : laws) {
     request.stiffness.push_back(law.stiffness);
@@ -61,9 +61,15 @@ void check_capabilities(const std::string& name, const proto::Capabilities& offe
   if (coupling.initialise.max_windows > 0 && !offered.initialise)
     throw ParticipantError(name, proto::ExitCode::config, name + " does not offer the initialise phase", "set-up",
                            "remove [coupling.initialise] from the case");
-  if (coupling.scheme == proto::Scheme::robin_explicit && name == "fem" && !offered.robin)
-    throw ParticipantError(name, proto::ExitCode::config, name + " does not offer the Robin condition that R1 needs",
-                           "set-up", "set coupling.scheme = \"E1\"");
+  const auto& scheme = proto::name_of(coupling.scheme);
+  if (proto::uses_robin(coupling.scheme) && name == "fem" && !offered.robin)
+    throw ParticipantError(name, proto::ExitCode::config,
+                           fmt::format("{} does not offer the Robin condition that {} needs", name, scheme), "set-up",
+                           "set coupling.scheme = \"E1\"");
+  if (coupling.scheme == proto::Scheme::robin_corrected && !offered.rollback)
+    throw ParticipantError(name, proto::ExitCode::config,
+                           fmt::format("{} does not offer the rollback that {} needs", name, scheme), "set-up",
+                           "set coupling.scheme = \"R1\"");
 }
 
 }  // namespace
@@ -124,7 +130,7 @@ void CoupledRun::set_up() {
   check_outgoing_fields("qdem", qdem,
                         {field::impulse, field::pad_work, field::sleeper_displacement, field::sleeper_velocity});
   check_outgoing_fields("fem", fem, {field::rail_displacement, field::rail_velocity, field::force_used});
-  if (input_.coupling.scheme == proto::Scheme::robin_explicit) check_outgoing_fields("fem", fem, {field::force_robin});
+  if (proto::uses_robin(input_.coupling.scheme)) check_outgoing_fields("fem", fem, {field::force_robin});
   laws_ = registered_pad("qdem", qdem, input_.seats);
 
   const auto request = configure_request(input_, folder_.path(), laws_);
@@ -191,7 +197,7 @@ void CoupledRun::take_initial_values() {
                   laws_);
   scheme_->start(initial);
   auto attributes = proto::provenance("coupler", input_.file.name(), input_.file.hash(), input_.file.text());
-  attributes.emplace_back("scheme", std::string(name_of(input_.coupling.scheme)));
+  attributes.emplace_back("scheme", proto::name_of(input_.coupling.scheme));
   attributes.emplace_back("window_s", input_.coupling.window_s);
   for (const auto& fact : summary_.facts)
     attributes.emplace_back(fact.key, fact.number ? proto::Attribute(*fact.number) : proto::Attribute(fact.text));

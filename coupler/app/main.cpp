@@ -9,6 +9,7 @@
 #include "coupler/app/options.hpp"
 #include "coupler/launch/children.hpp"
 #include "coupler/launch/exec_child.hpp"
+#include "proto/case/coupling.hpp"
 #include "proto/error.hpp"
 #include "proto/result/provenance.hpp"
 #include "proto/wire/codec.hpp"
@@ -27,13 +28,20 @@ int command_line(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text());
   coupler::RunOptions options;
-  auto* run = app.add_subcommand("run", "run a case");
-  run->add_option("CASE", options.case_path, "case file (TOML)")->required();
-  run->add_option("--out", options.out, "output folder, new or empty (default: runs/<case>-<time>)");
-  run->add_option("--scheme", options.scheme, "coupling scheme instead of the case's")
-      ->check(CLI::IsMember({"R1", "E1"}));
-  run->add_option("--threads", options.n_threads, "threads of each participant (sets OMP_NUM_THREADS)")
-      ->check(CLI::Range(1, 4096));
+  int n_levels = 4;
+  const auto add_runner = [&](const char* name, const char* what) {
+    auto* command = app.add_subcommand(name, what);
+    command->add_option("CASE", options.case_path, "case file (TOML)")->required();
+    command->add_option("--out", options.out, "output folder, new or empty (default: runs/<case>-<time>)");
+    command->add_option("--scheme", options.scheme, "coupling scheme instead of the case's")
+        ->check(CLI::IsMember(proto::scheme_names()));
+    command->add_option("--threads", options.n_threads, "threads of each participant (sets OMP_NUM_THREADS)")
+        ->check(CLI::Range(1, 4096));
+    return command;
+  };
+  auto* run = add_runner("run", "run a case");
+  auto* converge = add_runner("converge", "run a case with H, H/2, H/4, ... and report the observed orders");
+  converge->add_option("--levels", n_levels, "number of runs")->check(CLI::Range(3, 12))->capture_default_str();
   auto* check = app.add_subcommand("check", "validate a case without running it");
   check->add_option("CASE", options.case_path, "case file (TOML)")->required();
   try {
@@ -42,6 +50,7 @@ int command_line(int argc, char** argv) {
     const int code = app.exit(error);
     return code == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
   }
+  if (converge->parsed()) return coupler::converge_case(options, n_levels);
   return run->parsed() ? coupler::run_case(options) : coupler::check_case(options.case_path);
 }
 

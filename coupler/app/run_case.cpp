@@ -2,6 +2,7 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <string.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "coupler/app/coupled_run.hpp"
@@ -33,7 +34,7 @@ Summary blank_summary(const CaseInput& input) {
   summary.status = "failed";
   summary.case_name = input.file.name();
   summary.case_hash = fmt::format("{:016x}", input.file.hash());
-  summary.scheme = name_of(input.coupling.scheme);
+  summary.scheme = proto::name_of(input.coupling.scheme);
   summary.window_s = input.coupling.window_s;
   summary.n_windows_wanted = static_cast<std::int64_t>(input.coupling.n_windows);
   return summary;
@@ -81,14 +82,19 @@ int run_guarded(const CaseInput& input, const RunFolder& folder, spdlog::logger&
 
 int run_case(const RunOptions& options) {
   auto input = read_case(options.case_path);
-  if (!options.scheme.empty())
-    input.coupling.scheme = options.scheme == "R1" ? proto::Scheme::robin_explicit : proto::Scheme::serial_staggered;
+  if (!options.scheme.empty()) input.coupling.scheme = proto::scheme_of(options.scheme);
+  if (options.window_s > 0.0) {
+    const double duration = static_cast<double>(input.coupling.n_windows) * input.coupling.window_s;
+    input.coupling.window_s = options.window_s;
+    input.coupling.n_windows = static_cast<std::uint64_t>(std::llround(duration / options.window_s));
+  }
   find_participants(input);  // before a folder is made for a run that cannot start
   const RunFolder folder(options.out, input.file.name());
   proto::write_text_file(folder.file("case.toml"), input.file.text());
   RunLog log(folder.file("run.log"));
   log.logger().info("coupler {} ({}), case {} {:016x}, scheme {}", proto::project_version(),
-                    proto::source_description(), input.file.path(), input.file.hash(), name_of(input.coupling.scheme));
+                    proto::source_description(), input.file.path(), input.file.hash(),
+                    proto::name_of(input.coupling.scheme));
   auto summary = blank_summary(input);
   const auto write_summary = [&] { proto::write_text_file(folder.file("summary.json"), summary_text(summary)); };
   try {

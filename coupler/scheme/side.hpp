@@ -13,6 +13,9 @@ class Side {
   /// Solves one window and returns its values. Throws proto::Error when the participant fails or is lost.
   virtual proto::Result advance(const proto::Advance& request) = 0;
 
+  /// Back to the last commit: the window is solved again, with the next iteration number.
+  virtual void rollback(const proto::Rollback& request) = 0;
+
   /// Makes the window just advanced final.
   virtual void commit(const proto::Commit& request) = 0;
 };

@@ -9,13 +9,14 @@
 
 namespace coupler {
 
-/// Sends Advance and Commit; checks that the result is of the window that was asked for, and has a residual in the
+/// Sends Advance, Rollback and Commit; checks that the result is of the window that was asked for, and has a residual in the
 /// initialise phase.
 class RemoteSide : public Side {
  public:
   RemoteSide(Supervisor& supervisor, std::string name) : supervisor_(supervisor), name_(std::move(name)) {}
 
   proto::Result advance(const proto::Advance& request) override;
+  void rollback(const proto::Rollback& request) override { supervisor_.send(name_, request); }
   void commit(const proto::Commit& request) override { supervisor_.send(name_, request); }
 
  private:

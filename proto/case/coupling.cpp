@@ -1,5 +1,6 @@
 #include "proto/case/coupling.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "proto/error.hpp"
@@ -48,11 +49,28 @@ Initialise read_initialise(const Section& section, double window_s) {
 
 }  // namespace
 
+const std::vector<std::string>& scheme_names() {
+  static const std::vector<std::string> names{"R1", "R2", "E1", "E2"};  // in the order of the enumeration
+  return names;
+}
+
+const std::string& name_of(Scheme scheme) {
+  return scheme_names()[static_cast<std::size_t>(scheme)];
+}
+
+Scheme scheme_of(const std::string& name) {
+  const auto& names = scheme_names();
+  return static_cast<Scheme>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+bool uses_robin(Scheme scheme) {
+  return scheme == Scheme::robin_explicit || scheme == Scheme::robin_corrected;
+}
+
 Coupling read_coupling(const CaseFile& file) {
   const auto section = file.section("coupling");
   Coupling coupling;
-  coupling.scheme =
-      section.choice_or("scheme", "R1", {"R1", "E1"}) == "R1" ? Scheme::robin_explicit : Scheme::serial_staggered;
+  coupling.scheme = scheme_of(section.choice_or("scheme", "R1", scheme_names()));
   coupling.window_s = section.number_or("window_s", coupling.window_s, Range::positive());
   coupling.n_windows = read_window_count(section, coupling.window_s);
   coupling.output_interval_s = section.number_or("output_interval_s", 0.0, Range::not_negative());

@@ -9,7 +9,16 @@
 
 namespace proto {
 
-enum class Scheme { robin_explicit, serial_staggered };  // R1, E1
+/// How the two sides are coupled; coupler/README.md "Schemes".
+enum class Scheme { robin_explicit, robin_corrected, serial_staggered, serial_extrapolated };  // R1, R2, E1, E2
+
+/// Names of all schemes, as a case gives them: "R1", "R2", "E1", "E2".
+const std::vector<std::string>& scheme_names();
+const std::string& name_of(Scheme scheme);
+/// The scheme of that name; it must be one of scheme_names().
+Scheme scheme_of(const std::string& name);
+/// Whether the rail's side has the pad in its own equations.
+bool uses_robin(Scheme scheme);
 
 /// How the coupler starts one participant: `command` plus the arguments of proto/README.md "Starting a participant".
 struct ParticipantSpec {
@@ -41,7 +50,7 @@ struct Coupling {
 };
 
 /// Reads `[coupling]`:
-///   scheme "R1"|"E1", window_s, duration_s (a whole number of windows), output_interval_s, connect_timeout_s,
+///   scheme (a name), window_s, duration_s (a whole number of windows), output_interval_s, connect_timeout_s,
 ///   stall_timeout_s, qdem_command [..] (default ["qdem_solver", "participant"]), fem_command [..] (default
 ///   ["fem_solver", "participant"]); [coupling.initialise] window_s (default: coupling.window_s), max_windows, min_windows, check_windows, tolerance,
 ///   force_floor_n, qdem_residual_limit, fem_residual_limit.

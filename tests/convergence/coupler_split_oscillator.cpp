@@ -1,5 +1,6 @@
-// The split oscillator through three real processes against its closed form (test problem T2): R1 is of second order,
-// E1 is reported as first order, and the interface audit tells them apart.
+// The split oscillator through three real processes against its closed form (test problem T2): R1, R2 and E2 are of
+// second order, E1 is reported as first order, and the interface audit tells them apart.
+#include "proto/error.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/oscillator_sides.hpp"
 #include "tests/support/tolerance.hpp"
@@ -49,11 +50,47 @@ TEST(SplitOscillator, R1IsOfSecondOrderWithoutSubCycles) {
 TEST(SplitOscillator, R1IsOfSecondOrderWithTenSubCycles) {
   EXPECT_TRUE(tests::near_abs(order("R1", 10), 2.0, 0.15));
 }
+TEST(SplitOscillator, R2IsOfSecondOrderWithTenSubCycles) {
+  EXPECT_TRUE(tests::near_abs(order("R2", 10), 2.0, 0.15));
+}
+TEST(SplitOscillator, E2IsOfSecondOrderWithTenSubCycles) {
+  EXPECT_TRUE(tests::near_abs(order("E2", 10), 2.0, 0.15));
+}
 TEST(SplitOscillator, E1IsReportedAsFirstOrderWithoutSubCycles) {
   EXPECT_TRUE(tests::near_abs(order("E1", 1), 1.0, 0.15));
 }
 TEST(SplitOscillator, E1IsReportedAsFirstOrderWithTenSubCycles) {
   EXPECT_TRUE(tests::near_abs(order("E1", 10), 1.0, 0.15));
+}
+
+/// `coupler converge` with windows of T/160, T/320, T/640 and the step of QDEM's side held.
+std::optional<int> converge(tests::CoupledRun& coupled) {
+  return coupled.run({"converge", coupled.case_path(), "--out", coupled.out(), "--levels", "3"});
+}
+
+TEST(SplitOscillator, ConvergeReportsTheOrder) {
+  tests::OscillatorCase variant;
+  variant.window_s = end_time / 160, variant.duration_s = end_time;
+  variant.largest_step_s = variant.window_s / 40;
+  for (const auto* scheme : {"R1", "E1"}) {
+    variant.scheme = scheme;
+    tests::CoupledRun coupled(variant.text());
+    EXPECT_EQ(converge(coupled).value_or(-1), 0) << coupled.message();
+    const auto table = coupled.table();
+    EXPECT_TRUE(tests::contains(table, "observed orders")) << table;
+    std::printf("%s", table.substr(table.find("observed orders")).c_str());
+    EXPECT_FALSE(tests::read_text(coupled.out() + "/convergence.csv").empty());
+  }
+}
+
+TEST(SplitOscillator, ConvergeRefusesAnOrderBelowTheSchemes) {
+  // Windows that do not resolve the pad's vibration show no order.
+  tests::OscillatorCase variant;
+  variant.scheme = "R1", variant.window_s = end_time / 2, variant.duration_s = 2 * end_time;
+  variant.largest_step_s = end_time / 640;
+  tests::CoupledRun coupled(variant.text());
+  EXPECT_EQ(converge(coupled).value_or(-1), static_cast<int>(proto::ExitCode::numerics)) << coupled.message();
+  EXPECT_TRUE(tests::contains(coupled.message(), "scheme R1 should with 2")) << coupled.message();
 }
 
 TEST(SplitOscillator, TheAuditPassesR1AndFailsE1) {

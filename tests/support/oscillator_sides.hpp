@@ -35,6 +35,7 @@ class RailModel : public coupler::Side {
  public:
   explicit RailModel(const Oscillator& o) : o_(o), u_(o.u), v_(o.v) {}
   proto::Result advance(const proto::Advance& request) override;
+  void rollback(const proto::Rollback&) override { u_ = u_before_, v_ = v_before_; }
   void commit(const proto::Commit&) override {}
   void damp(double factor) { v_ *= factor; }
   double displacement() const { return u_; }
@@ -42,7 +43,7 @@ class RailModel : public coupler::Side {
 
  private:
   Oscillator o_;
-  double u_, v_;
+  double u_, v_, u_before_ = 0.0, v_before_ = 0.0;
 };
 
 /// Sleeper mass, kick-drift-kick with the dashpot at the end velocity of each sub-step.
@@ -50,6 +51,7 @@ class SleeperModel : public coupler::Side {
  public:
   explicit SleeperModel(const Oscillator& o) : o_(o), x_(o.x), y_(o.y) {}
   proto::Result advance(const proto::Advance& request) override;
+  void rollback(const proto::Rollback&) override { x_ = x_before_, y_ = y_before_; }
   void commit(const proto::Commit&) override {}
   void damp(double factor) { y_ *= factor; }
   double displacement() const { return x_; }
@@ -57,10 +59,11 @@ class SleeperModel : public coupler::Side {
 
  private:
   Oscillator o_;
-  double x_, y_;
+  double x_, y_, x_before_ = 0.0, y_before_ = 0.0;
 };
 
 inline proto::Result RailModel::advance(const proto::Advance& request) {
+  u_before_ = u_, v_before_ = v_;
   const double h = request.window_s, k = o_.pad.stiffness, c = o_.pad.damping;
   const bool robin = request.data.has(proto::field::force_carry);
   const double carry = robin ? request.data.get(proto::field::force_carry).at(0) : 0.0;
@@ -80,7 +83,7 @@ inline proto::Result RailModel::advance(const proto::Advance& request) {
   const double force_robin = k * ((u_ + u1) / 2 - x) + c * ((u1 - u_) / h - y);
   const double force_used = robin ? force_robin - carry : request.data.get(proto::field::force_mean).at(0);
   u_ = u1, v_ = v1;
-  proto::Result result{request.phase, request.window, 0, 0.0, {}};
+  proto::Result result{request.phase, request.window, request.iteration, 0.0, {}};
   result.data.set(proto::field::rail_displacement, {u1});
   result.data.set(proto::field::rail_velocity, {v1});
   if (robin) result.data.set(proto::field::force_robin, {force_robin});
@@ -89,6 +92,7 @@ inline proto::Result RailModel::advance(const proto::Advance& request) {
 }
 
 inline proto::Result SleeperModel::advance(const proto::Advance& request) {
+  x_before_ = x_, y_before_ = y_;
   const double u0 = request.data.get(proto::field::rail_displacement_begin).at(0);
   const double u1 = request.data.get(proto::field::rail_displacement).at(0);
   const double h = request.window_s / request.sub_cycles, rate = (u1 - u0) / request.window_s;
@@ -104,7 +108,7 @@ inline proto::Result SleeperModel::advance(const proto::Advance& request) {
     work += (f + f_next) / 2 * (u_next - u);
     u = u_next, f = f_next;
   }
-  proto::Result result{request.phase, request.window, 0, 0.0, {}};
+  proto::Result result{request.phase, request.window, request.iteration, 0.0, {}};
   result.data.set(proto::field::impulse, {impulse});
   result.data.set(proto::field::pad_work, {work});
   result.data.set(proto::field::sleeper_displacement, {x_});

@@ -82,6 +82,22 @@ TEST(WindowScheme, R1IsOfSecondOrder) {
   EXPECT_TRUE(tests::near_abs(order(Scheme::robin_explicit, 10), 2.0, 0.15));
 }
 
+TEST(WindowScheme, R2IsOfSecondOrder) {
+  EXPECT_TRUE(tests::near_abs(order(Scheme::robin_corrected, 1), 2.0, 0.15));
+  EXPECT_TRUE(tests::near_abs(order(Scheme::robin_corrected, 10), 2.0, 0.15));
+}
+
+TEST(WindowScheme, E2IsOfSecondOrder) {
+  EXPECT_TRUE(tests::near_abs(order(Scheme::serial_extrapolated, 1), 2.0, 0.15));
+  EXPECT_TRUE(tests::near_abs(order(Scheme::serial_extrapolated, 10), 2.0, 0.15));
+}
+
+TEST(WindowScheme, R2KeepsTheMomentumToo) {
+  const auto r2 = run(Scheme::robin_corrected, 320, 10);
+  EXPECT_TRUE(tests::near_abs(r2.momentum_sum, r2.raw_defect, 1e-13));
+  EXPECT_LT(r2.energy_defect, run(Scheme::robin_explicit, 320, 10).energy_defect);
+}
+
 TEST(WindowScheme, EveryWindowGetsTheSubCyclesOfItsOwnBound) {
   const auto first = FitfulSleeper::sub_cycles_of(0);
   EXPECT_TRUE(tests::near_abs(order<FitfulSleeper>(Scheme::robin_explicit, first), 2.0, 0.15));
@@ -153,6 +169,7 @@ TEST(WindowScheme, R1PredictsTheSleepersMeanMotion) {
 TEST(WindowScheme, NamesTheMissingField) {
   struct Mute : coupler::Side {
     proto::Result advance(const proto::Advance&) override { return {}; }
+    void rollback(const proto::Rollback&) override {}
     void commit(const proto::Commit&) override {}
   } mute;
   WindowScheme windows(Scheme::robin_explicit, 0.01, 1, {proto::PadLaw{}});
