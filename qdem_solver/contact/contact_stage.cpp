@@ -10,6 +10,7 @@
 #include "qdem_solver/contact/candidates.hpp"
 #include "qdem_solver/contact/contact_rates.hpp"
 #include "qdem_solver/contact/entry_force.hpp"
+#include "qdem_solver/contact/live_entries.hpp"
 
 namespace qdem {
 namespace {
@@ -41,13 +42,10 @@ struct ContactStage::Data {
   // Scratch of the list with this id.
   std::uint64_t list_id = 0;
   std::vector<EntryForce> forces;
-  std::vector<unsigned char> live;
+  LiveEntries live;
   std::vector<double> wake;  ///< sum of both sides' travel below which an entry cannot touch [m]
   double last_travel = 0.0;
   std::int64_t last_step = -1;
-  std::vector<std::int64_t> first_of_body;   ///< CSR over keys: entries whose body_a it is
-  std::vector<std::int64_t> second_offsets;  ///< CSR: entries whose body_b it is
-  std::vector<std::int64_t> second_entries;
 
   Data(const Model& m, double s) : model(m), skin(s), skins(make_skins(m)) {}
 
@@ -74,26 +72,9 @@ struct ContactStage::Data {
 
   void fit_scratch(const ContactState& contact) {
     if (list_id == contact.list_id && forces.size() == contact.keys.size()) return;
-    const std::size_t n = contact.keys.size();
-    const std::size_t n_bodies = skins.size();
-    forces.resize(n);
-    live.assign(n, 0);
-    wake.assign(n, 0.0);
-    first_of_body.assign(n_bodies + 1, 0);
-    second_offsets.assign(n_bodies + 1, 0);
-    for (const ContactKey& key : contact.keys) {
-      ++first_of_body[key.body_a + 1];
-      if (!key.is_plane()) ++second_offsets[key.body_b + 1];
-    }
-    for (std::size_t b = 0; b < n_bodies; ++b) {
-      first_of_body[b + 1] += first_of_body[b];
-      second_offsets[b + 1] += second_offsets[b];
-    }
-    second_entries.resize(second_offsets.back());
-    auto next = second_offsets;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!contact.keys[i].is_plane()) second_entries[next[contact.keys[i].body_b]++] = static_cast<std::int64_t>(i);
-    }
+    forces.resize(contact.keys.size());
+    wake.assign(contact.keys.size(), 0.0);
+    live.clear(contact.keys.size(), skins.size());
     list_id = contact.list_id;
   }
 
@@ -163,20 +144,26 @@ void ContactStage::compute(State& state, double dt) {
   ContactState& contact = state.contact;
   d.fit_scratch(contact);
   d.follow(state);
-  const auto n = static_cast<std::int64_t>(contact.keys.size());
-#pragma omp parallel for schedule(dynamic, 256)
-  for (std::int64_t i = 0; i < n; ++i) {
-    d.live[i] = 0;
-    const double travel = d.travel_of(state, contact.keys[i]);
-    if (travel < d.wake[i]) continue;
-    EntryForce force = d.push(state, i, dt, contact.slip[i]);
-    if (force.live) {
-      d.forces[i] = force;
-      d.live[i] = 1;
-    } else {
-      d.wake[i] = travel + force.gap;
+  const std::int64_t n_chunks = d.live.n_chunks();
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::int64_t chunk = 0; chunk < n_chunks; ++chunk) {
+    const auto [first, last] = d.live.chunk(chunk);
+    std::int64_t* const live = d.live.begin_chunk(chunk);
+    std::int64_t n_live = 0;
+    for (std::int64_t i = first; i < last; ++i) {
+      const double travel = d.travel_of(state, contact.keys[i]);
+      if (travel < d.wake[i]) continue;
+      EntryForce force = d.push(state, i, dt, contact.slip[i]);
+      if (force.live) {
+        d.forces[i] = force;
+        live[n_live++] = i;
+      } else {
+        d.wake[i] = travel + force.gap;
+      }
     }
+    d.live.end_chunk(chunk, n_live);
   }
+  d.live.sort_by_body(contact.keys);
 }
 
 void ContactStage::gather(int body, proto::Span<double> force) const {
@@ -186,13 +173,10 @@ void ContactStage::gather(int body, proto::Span<double> force) const {
     double* p = force.data() + skin.offset + 3 * skin.stride * node;
     p[0] += f[0], p[skin.stride] += f[1], p[2 * skin.stride] += f[2];
   };
-  for (std::int64_t i = d.first_of_body[body]; i < d.first_of_body[body + 1]; ++i) {
-    if (!d.live[i]) continue;
+  for (const std::int64_t i : d.live.first_of(body)) {
     for (int k = 0; k < d.forces[i].n_a; ++k) add(d.forces[i].nodes_a[k], d.forces[i].force_a[k]);
   }
-  for (std::int64_t j = d.second_offsets[body]; j < d.second_offsets[body + 1]; ++j) {
-    const std::int64_t i = d.second_entries[j];
-    if (!d.live[i]) continue;
+  for (const std::int64_t i : d.live.second_of(body)) {
     for (int k = 0; k < d.forces[i].n_b; ++k) add(d.forces[i].nodes_b[k], d.forces[i].force_b[k]);
   }
 }
@@ -215,8 +199,7 @@ ContactReport ContactStage::report(const State& state) const {
   report.candidates = static_cast<std::int64_t>(contact.keys.size());
   std::vector<std::set<int>> others(d.skins.size());
   if (d.list_id != contact.list_id) return report;
-  for (std::size_t i = 0; i < contact.keys.size(); ++i) {
-    if (!d.live[i]) continue;
+  for (const std::int64_t i : d.live.all()) {
     ++report.live;
     report.largest_penetration = std::max(report.largest_penetration, d.forces[i].overlap);
     report.elastic_energy += d.forces[i].energy;

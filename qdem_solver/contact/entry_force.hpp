@@ -87,8 +87,7 @@ inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_
   const EdgeContact contact = touch_edges(a, edge_a, b, edge_b, motion.x, reach);
   if (!contact.touching) {
     slip.setZero();
-    const EdgeNow ea(a, motion.x, edge_a), eb(b, motion.x, edge_b);
-    result.gap = std::sqrt(segment_distance2(ea.x[0], ea.x[1], eb.x[0], eb.x[1])) - reach;
+    result.gap = contact.gap;
     return result;
   }
   const auto& ends_a = a.shape->edges[edge_a].nodes;

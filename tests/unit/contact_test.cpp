@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "qdem_solver/contact/candidates.hpp"
+#include "qdem_solver/contact/edge_pair.hpp"
 #include "qdem_solver/contact/entry_force.hpp"
 #include "tests/support/tolerance.hpp"
 #include "tests/unit/contact_scene.hpp"
@@ -91,6 +92,55 @@ TEST(ContactLaw, SticksThenSlidesAtTheCoulombLimit) {
   qdem::ContactLaw damped = law;
   damped.damping_ratio = 0.1;
   EXPECT_EQ(qdem::VoigtCoulombLaw(damped, 0.3).push(touch, slip, 1e-5).normal, 0.0);  // never pulls
+}
+
+/// A rigid motion of body 1 about the middle of the scene that moves no node by more than `most`.
+qdem::State nudged(const qdem::Model& model, const qdem::State& state, std::mt19937_64& random, double most) {
+  const Vector3d shift = in_cube(random, 1.0), axis = in_cube(random, 1.0).normalized();
+  const double angle = 2 * uniform(random) - 1;
+  qdem::State moved = state;
+  const auto move = [&](double size) {
+    double farthest = 0.0;
+    for (int i = 0; i < model.shape(1).n_nodes(); ++i) {
+      const Vector3d x = state.position(model, 1, i);
+      const Vector3d y = Eigen::AngleAxisd(30 * size * angle, axis) * x + size * shift;
+      qdem::State::scatter(model, moved.x, 1, i, y);
+      farthest = std::max(farthest, (y - x).norm());
+    }
+    return farthest;
+  };
+  double size = most;
+  for (int k = 0; k < 4; ++k) size *= 0.999 * most / move(size);  // nearly linear
+  EXPECT_LE(move(size), most);
+  return moved;
+}
+
+TEST(EdgePair, DoesNotTouchBeforeItsGapIsUsedUp) {
+  std::mt19937_64 random(11);
+  constexpr double reach = 2e-3, longest = 0.5e-3;  // a list does not live longer
+  int missed = 0, turned_away = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const qdem::Model model = model_of_boxes(2);
+    const qdem::State state =
+        make_state(model, {{turn(random), Vector3d::Zero()}, {turn(random), in_cube(random, 0.04)}});
+    const auto skins = qdem::make_skins(model);
+    for (int ea = 0; ea < static_cast<int>(skins[0].shape->edges.size()); ++ea) {
+      for (int eb = 0; eb < static_cast<int>(skins[1].shape->edges.size()); ++eb) {
+        const auto contact = touch_edges(skins[0], ea, skins[1], eb, state.x.data(), reach);
+        const double gap = std::min(contact.gap, longest);
+        if (contact.touching || !(gap > 0)) continue;
+        const qdem::EdgeNow a(skins[0], state.x.data(), ea), b(skins[1], state.x.data(), eb);
+        const double distance = std::sqrt(qdem::segment_distance2(a.x[0], a.x[1], b.x[0], b.x[1]));
+        if (distance > reach + longest) continue;
+        ++(distance < reach && contact.facing == 0 && contact.normal.norm() > 0.5 ? turned_away : missed);
+        const qdem::State moved = nudged(model, state, random, gap);
+        EXPECT_FALSE(touch_edges(skins[0], ea, skins[1], eb, moved.x.data(), reach).touching)
+            << "gap " << gap << ", distance " << distance << ", facing " << contact.facing;
+      }
+    }
+  }
+  EXPECT_GT(missed, 1000);
+  EXPECT_GT(turned_away, 20);
 }
 
 TEST(ContactStage, ConservesMomentumAndAngularMomentum) {
