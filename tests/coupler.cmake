@@ -22,21 +22,20 @@ add_dependencies(coupler_initialise_test coupler relaxing_participant)
 house_test(coupler_supervisor_test integration SOURCES integration/coupler_supervisor.cpp
            LIBRARIES coupler::supervise nlohmann_json::nlohmann_json TIMEOUT 60)
 add_dependencies(coupler_supervisor_test coupler oscillator_participant)
+house_test(coupler_convergence_test unit SOURCES unit/coupler_convergence.cpp LIBRARIES coupler::report)
 house_test(coupler_record_test unit SOURCES unit/coupler_record.cpp
            LIBRARIES coupler::record nlohmann_json::nlohmann_json)
 
 # The whole chain; the first test builds the bed of the quick case.
-house_test(wheel_passage_test integration SOURCES integration/wheel_passage.cpp
+house_test(wheel_passage_test integration ALONE SOURCES integration/wheel_passage.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 1500)
 add_dependencies(wheel_passage_test coupler qdem_solver fem_solver)
-set_tests_properties(wheel_passage_test PROPERTIES RUN_SERIAL TRUE)
 
 # Faults of the real solvers, on a small bed that the first test builds.
-house_test(solver_kills_test fault SOURCES fault/solver_kills.cpp
+house_test(solver_kills_test fault ALONE SOURCES fault/solver_kills.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 300)
-house_test(solver_bad_input_test fault SOURCES fault/solver_bad_input.cpp
+house_test(solver_bad_input_test fault ALONE SOURCES fault/solver_bad_input.cpp
            LIBRARIES qdem::participant qdem::bed nlohmann_json::nlohmann_json TIMEOUT 300)
 foreach(test solver_kills_test solver_bad_input_test)
   add_dependencies(${test} coupler qdem_solver fem_solver oscillator_participant)
-  set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE)
 endforeach()

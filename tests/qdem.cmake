@@ -7,9 +7,9 @@ house_test(qdem_engine_whole integration SOURCES integration/qdem_engine.cpp LIB
 house_test(qdem_incline verification SOURCES verification/qdem_incline.cpp LIBRARIES qdem::engine)
 house_test(qdem_relaxation verification SOURCES verification/qdem_relaxation.cpp LIBRARIES qdem::engine)
 # Threads that wait by spinning stand in each other's way where other tests run at the same time.
-set_tests_properties(qdem_engine_whole PROPERTIES ENVIRONMENT OMP_WAIT_POLICY=passive)
-house_test(qdem_rates bench SOURCES bench/qdem_rates.cpp LIBRARIES qdem::engine)
+set_tests_properties(qdem_engine_whole PROPERTIES ENVIRONMENT "OMP_NUM_THREADS=1;OMP_WAIT_POLICY=passive")
+house_test(qdem_sensors_test unit SOURCES unit/qdem_sensors.cpp LIBRARIES qdem::participant)
 house_test(qdem_case unit SOURCES unit/qdem_case.cpp LIBRARIES qdem::participant)
 house_test(qdem_participant_whole integration SOURCES integration/qdem_participant.cpp
            LIBRARIES qdem::participant coupler::mapping)
-set_tests_properties(qdem_participant_whole PROPERTIES ENVIRONMENT OMP_WAIT_POLICY=passive)
+set_tests_properties(qdem_participant_whole PROPERTIES ENVIRONMENT "OMP_NUM_THREADS=1;OMP_WAIT_POLICY=passive")

@@ -5,10 +5,14 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <system_error>
 
 #include "proto/case/case_file.hpp"
 #include "proto/error.hpp"
+#include "qdem_solver/bench/report.hpp"
 #include "qdem_solver/output/bed_file.hpp"
 #include "qdem_solver/output/fields_file.hpp"
 #include "qdem_solver/participant/run_alone.hpp"
@@ -81,6 +85,24 @@ void bed_command(const std::string& case_path, const std::string& path) {
   fields.close();
   fmt::print("bed    {}\nfields {}\n", path, view_path.string());
   print_facts(bed.facts());
+}
+
+void bench_command(const std::string& case_path, const std::string& json_path) {
+  std::optional<bench::Scene> settled;
+  if (!case_path.empty()) {
+    const auto file = proto::CaseFile::load(case_path);
+    check_command(file);
+    TrackBed bed(file, bed_of_case, {});
+    settled = bench::Scene{bed.model(), bed.state()};
+  }
+  const auto report = bench::measure(settled ? &*settled : nullptr);
+  fmt::print("{}", bench::table(report));
+  if (json_path.empty()) return;
+  std::ofstream out(json_path);
+  out << report.dump(2) << "\n";
+  if (!out.flush()) {
+    throw proto::Error(proto::ExitCode::cannot_create, "the report cannot be written", json_path);
+  }
 }
 
 }  // namespace qdem

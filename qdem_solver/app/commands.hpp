@@ -21,4 +21,8 @@ void run_command(const std::string& case_path, const std::string& out);
 /// NAME_fields.h5 beside it; prints its figures.
 void bed_command(const std::string& case_path, const std::string& path);
 
+/// `qdem_solver bench`: rates of this machine and of the solver on it, as a table and, with `json_path` not empty, in a
+/// file. With `case_path` not empty the costs of contact are those of its bed.
+void bench_command(const std::string& case_path, const std::string& json_path);
+
 }  // namespace qdem

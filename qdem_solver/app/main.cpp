@@ -18,7 +18,7 @@
 namespace {
 
 struct Arguments {
-  std::string case_path, endpoint, out = ".", name = "qdem", bed_path = "bed.h5";
+  std::string case_path, endpoint, out = ".", name = "qdem", bed_path = "bed.h5", json_path;
 };
 
 void check(const Arguments& arguments) {
@@ -48,6 +48,11 @@ int run(int argc, char** argv) {
   bed->add_option("case", arguments.case_path, "case file")->required();
   bed->add_option("-o,--output", arguments.bed_path, "file to write");
   bed->callback([&] { qdem::bed_command(arguments.case_path, arguments.bed_path); });
+
+  auto* bench = app.add_subcommand("bench", "measure the solver's rates beside those of the machine");
+  bench->add_option("--case", arguments.case_path, "case whose bed is stepped");
+  bench->add_option("--json", arguments.json_path, "file for the figures");
+  bench->callback([&] { qdem::bench_command(arguments.case_path, arguments.json_path); });
 
   auto* checker = app.add_subcommand("check", "validate the case without running it");
   checker->add_option("--case", arguments.case_path, "case file")->required();

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "proto/error.hpp"
-#include "qdem_solver/bed/rigid_fit.hpp"
+#include "qdem_solver/state/rigid_fit.hpp"
 #include "qdem_solver/bed/sleeper_shape.hpp"
 
 namespace qdem::bed {

@@ -59,8 +59,7 @@ void Builder::finish() {
   drop_spare_lanes();
 
   report_.stones = static_cast<std::int64_t>(model_.bodies.size()) - 1;
-  report_.elements = 0;
-  for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) report_.elements += model_.shape(b).n_tets();
+  report_.elements = model_.n_elements();
   report_.seed = static_cast<std::int64_t>(s.seed);
   report_.d50 = s.gradation.size_at(0.5);
   report_.elements_per_stone =

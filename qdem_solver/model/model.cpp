@@ -41,6 +41,12 @@ double Model::body_mass(int body) const {
   return material(body).density * scale * scale * scale * shape(body).volume();
 }
 
+std::int64_t Model::n_elements() const {
+  std::int64_t sum = 0;
+  for (int body = 0; body < static_cast<int>(bodies.size()); ++body) sum += shape(body).n_tets();
+  return sum;
+}
+
 void make_batches(Model& model) {
   model.batches.clear();
   model.n_values = 0;

@@ -142,6 +142,7 @@ struct Model {
   const Material& material(int body) const { return materials[bodies[body].material_id]; }
   double node_mass(int body, int node) const;   ///< [kg]
   double body_mass(int body) const;             ///< [kg]
+  std::int64_t n_elements() const;              ///< of all bodies
 };
 
 /// Sorts bodies into batches and sets their offsets. The order of `bodies` is kept; only batch and lane are written.

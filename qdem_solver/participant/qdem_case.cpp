@@ -1,6 +1,7 @@
 #include "qdem_solver/participant/qdem_case.hpp"
 
 #include "proto/error.hpp"
+#include "qdem_solver/contact/calibration.hpp"
 
 namespace qdem {
 namespace {
@@ -40,11 +41,48 @@ void read_materials(const Section& qdem, BedPhysics& physics) {
   }
 }
 
+/// Exactly one of the alternatives must be there, each with all of its keys.
+std::size_t chosen(const Section& section, const std::vector<std::vector<std::string>>& alternatives) {
+  std::string listed;
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < alternatives.size(); ++i) {
+    bool any = false;
+    for (const std::string& key : alternatives[i]) any = any || section.has(key);
+    if (any) found.push_back(i);
+    listed += (i == 0 ? "" : ", or ");
+    for (std::size_t k = 0; k < alternatives[i].size(); ++k) listed += (k == 0 ? "" : " with ") + alternatives[i][k];
+  }
+  if (found.size() == 1) return found.front();
+  section.fail(alternatives[found.empty() ? 0 : found.back()].front(),
+               found.empty() ? "it is missing" : "the same is given twice", "give " + listed);
+}
+
+double read_damping_ratio(const Section& section) {
+  if (chosen(section, {{"damping_ratio"}, {"restitution"}}) == 0) {
+    return section.number("damping_ratio", Range::between(0.0, 1.0));
+  }
+  return damping_ratio_for(section.number("restitution", Range::between(least_restitution(), 1.0)));
+}
+
+double read_normal_stiffness(const Section& section, const Material& stone, double damping_ratio) {
+  const auto positive = [&](const char* key) { return section.number(key, Range::positive()); };
+  switch (chosen(
+      section,
+      {{"normal_stiffness_n_per_m"}, {"hertz_load_n", "hertz_radius_m"}, {"contact_time_s", "contact_mass_kg"}})) {
+    case 0:
+      return positive("normal_stiffness_n_per_m");
+    case 1:
+      return hertz_tangent(stone.young, stone.poisson, positive("hertz_radius_m"), positive("hertz_load_n"));
+    default:
+      return stiffness_for(positive("contact_time_s"), positive("contact_mass_kg") / 2, damping_ratio);
+  }
+}
+
 void read_contact(const Section& section, BedPhysics& physics) {
   ContactLaw& law = physics.contact;
-  law.normal_stiffness = section.number("normal_stiffness_n_per_m", Range::positive());
+  law.damping_ratio = read_damping_ratio(section);
+  law.normal_stiffness = read_normal_stiffness(section, physics.stone, law.damping_ratio);
   law.tangential_ratio = section.number_or("tangential_ratio", 0.8, Range::between(0.0, 1.0));
-  law.damping_ratio = section.number("damping_ratio", Range::between(0.0, 1.0));
   law.friction = section.number("friction", Range::between(0.0, 2.0));
   law.rounding = section.number("rounding_m", Range::positive());
   physics.ground_friction = section.number_or("ground_friction", law.friction, Range::between(0.0, 2.0));
@@ -54,17 +92,7 @@ RunAlone read_run(const Section& section) {
   RunAlone run;
   run.duration = section.number_or("duration_s", 0.0, Range::not_negative());
   run.output_interval = section.number_or("output_interval_s", 0.0, Range::not_negative());
-  run.load_time = section.numbers_or("load_time_s", {}, Range::not_negative());
-  run.load_force = section.numbers_or("load_force_n", {});
-  if (run.load_time.size() != run.load_force.size()) {
-    section.fail(
-        "load_force_n",
-        std::to_string(run.load_force.size()) + " forces for " + std::to_string(run.load_time.size()) + " times",
-        "give as many forces as load_time_s has times");
-  }
-  for (std::size_t i = 1; i < run.load_time.size(); ++i) {
-    if (run.load_time[i] <= run.load_time[i - 1]) section.fail("load_time_s", "the times do not ascend");
-  }
+  run.load = read_load(section.section("load"));
   return run;
 }
 
@@ -81,6 +109,7 @@ QdemCase read_qdem_case(const proto::CaseFile& file) {
       section.number_or("initialise_damping", result.initialise_damping, Range::between(0, 0.95));
   read_materials(section, result.physics);
   read_contact(section.section("contact"), result.physics);
+  result.sensors = read_sensors(section);
   result.run = read_run(section.section("run"));
   section.finish();
   return result;

@@ -5,15 +5,16 @@
 
 #include "proto/case/case_file.hpp"
 #include "qdem_solver/bed/bed.hpp"
+#include "qdem_solver/participant/load_history.hpp"
+#include "qdem_solver/sensors/sensor_settings.hpp"
 
 namespace qdem {
 
 /// `[qdem.run]`: what `qdem_solver run` does with the bed.
 struct RunAlone {
-  double duration = 0.0;           ///< [s]
-  double output_interval = 0.0;    ///< [s]; 0: only the last state
-  std::vector<double> load_time;   ///< ascending [s]; empty: no load
-  std::vector<double> load_force;  ///< downward force on the pads of all seats together at those times [N]
+  double duration = 0.0;         ///< [s]
+  double output_interval = 0.0;  ///< [s]; 0: only the last state
+  LoadHistory load;              ///< downward force on the pads of all seats together; empty: none
 };
 
 struct QdemCase {
@@ -22,15 +23,20 @@ struct QdemCase {
   double largest_step = 0.0;        ///< the user's own limit [s]; 0: none
   int threads = 0;                  ///< 0: as many as the environment gives
   double initialise_damping = 0.5;  ///< Cundall's damping in the initialise phase [-]
+  SensorsSettings sensors;
   RunAlone run;
 };
 
 /// Reads
-///   [qdem] step_safety, largest_step_s, threads, gravity_m_per_s2, initialise_damping
+///   [qdem] step_safety, largest_step_s, threads, gravity_m_per_s2, initialise_damping, sensor_interval_s
+///   [[qdem.sensor]] (sensors/sensor_settings.hpp)
 ///   [[qdem.material]] name ("stone", "sleeper"; both once), young_pa, poisson, density_kg_per_m3, and either
 ///     retardation_time_s or lame_viscosity_pa_s with shear_viscosity_pa_s
-///   [qdem.contact] normal_stiffness_n_per_m, tangential_ratio, damping_ratio, friction, ground_friction, rounding_m
-///   [qdem.run] duration_s, output_interval_s, load_time_s, load_force_n
+///   [qdem.contact] normal_stiffness_n_per_m, or hertz_load_n with hertz_radius_m (tangent of Hertz's law there), or
+///     contact_time_s with contact_mass_kg (of two stones of that mass); damping_ratio or restitution;
+///     tangential_ratio, friction, ground_friction, rounding_m
+///   [qdem.run] duration_s, output_interval_s
+///   [qdem.run.load] (load_history.hpp)
 /// and refuses every other key. Throws proto::Error (config).
 QdemCase read_qdem_case(const proto::CaseFile& file);
 

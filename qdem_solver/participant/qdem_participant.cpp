@@ -58,6 +58,7 @@ proto::Interface QdemParticipant::describe() {
 
 proto::Configured QdemParticipant::configure(const proto::Configure& request) {
   window_s_ = request.window_s;
+  check_sensor_interval();
   if (!request.output_directory.empty()) out_ = request.output_directory;
   return {bed_->largest_step(), bed_->facts(), bed_->relaxation_step()};
 }
@@ -94,7 +95,10 @@ proto::FieldSet QdemParticipant::advance(const proto::Advance& request, proto::P
   const auto& end = request.data.get(field::rail_displacement);
   rail_foot_ = end;
   auto sums = bed_->engine().advance(bed_->state(), dt, request.sub_cycles, {begin, end});
-  if (marching_) bed_->find_step(window_s_);
+  if (marching_) {
+    bed_->find_step(window_s_);
+    if (dt > bed_->step_bound()) ++windows_above_bound_;
+  }
   return values(std::move(sums));
 }
 
@@ -115,10 +119,32 @@ bool QdemParticipant::output_is_due(std::int64_t window) const {
   return outputs_until(window + 1) > outputs_until(window);
 }
 
+void QdemParticipant::check_sensor_interval() const {
+  const SensorsSettings& sensors = bed_->settings().sensors;
+  const double windows = sensors.interval / window_s_;
+  if (sensors.list.empty() || std::abs(windows - std::round(windows)) < 1e-6 * windows) return;
+  file_.section("qdem").fail("sensor_interval_s", fmt::format("it is {:.6g} windows of {:.4g} s", windows, window_s_),
+                             "give a whole multiple of coupling.window_s");
+}
+
+void QdemParticipant::open_files() {
+  const auto attributes = bed_->attributes(file_);
+  if (output_interval_ > 0) {
+    fields_ = std::make_unique<FieldsFile>(out_ + "/qdem.h5", bed_->model(), bed_->state(), attributes);
+    fields_->write(0.0, bed_->state(), bed_->engine());
+  }
+  const SensorsSettings& sensors = bed_->settings().sensors;
+  if (sensors.list.empty()) return;
+  sensors_ = std::make_unique<SensorFile>(out_ + "/sensors.h5", sensors, bed_->model(), bed_->state(), attributes);
+  sensors_->look(0.0, bed_->state(), bed_->engine().contacts());
+}
+
 void QdemParticipant::commit(const proto::Commit& request) {
   committed_step_ = bed_->largest_step();
-  if (!marching_ || !output_is_due(request.window) || !fields_) return;
-  fields_->write(static_cast<double>(request.window + 1) * window_s_, bed_->state(), bed_->engine());
+  if (!marching_) return;
+  const double time = static_cast<double>(request.window + 1) * window_s_;
+  if (sensors_) sensors_->look(time, bed_->state(), bed_->engine().contacts());
+  if (fields_ && output_is_due(request.window)) fields_->write(time, bed_->state(), bed_->engine());
 }
 
 void QdemParticipant::rollback(const proto::Rollback&) {
@@ -131,20 +157,19 @@ proto::FieldSet QdemParticipant::start() {
   bed_->find_step(window_s_);
   committed_step_ = bed_->largest_step();
   marching_ = true;
-  if (output_interval_ > 0) {
-    fields_ = std::make_unique<FieldsFile>(out_ + "/qdem.h5", bed_->model(), bed_->state(), bed_->attributes(file_));
-    fields_->write(0.0, bed_->state(), bed_->engine());
-  }
+  open_files();
   const std::vector<double> zero(3 * bed_->model().pads.size(), 0.0);
   return values({zero, zero});
 }
 
 std::vector<proto::Fact> QdemParticipant::finish() {
   if (fields_) fields_->close();
-  fields_.reset();
+  if (sensors_) sensors_->close();
+  fields_.reset(), sensors_.reset();
   const auto contacts = bed_->engine().contacts().report(bed_->state());
   return {{"qdem.end.coordination_number", contacts.coordination_number, {}},
           {"qdem.end.largest_penetration_m", contacts.largest_penetration, {}},
+          {"qdem.windows_above_bound", static_cast<double>(windows_above_bound_), {}},
           {"qdem.steps", static_cast<double>(bed_->state().step), {}},
           {"qdem.candidate_rebuilds", static_cast<double>(bed_->state().contact.rebuilds), {}}};
 }

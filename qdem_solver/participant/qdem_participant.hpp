@@ -10,6 +10,7 @@
 #include "proto/session/participant.hpp"
 #include "qdem_solver/output/fields_file.hpp"
 #include "qdem_solver/participant/track_bed.hpp"
+#include "qdem_solver/sensors/sensor_file.hpp"
 
 namespace qdem {
 
@@ -41,6 +42,8 @@ class QdemParticipant : public proto::Participant {
  private:
   proto::FieldSet values(PadSums sums) const;
   void begin_window(const proto::Advance& request);
+  void check_sensor_interval() const;
+  void open_files();
   bool output_is_due(std::int64_t window) const;
 
   proto::CaseFile file_;
@@ -49,10 +52,12 @@ class QdemParticipant : public proto::Participant {
   proto::Progress* progress_ = nullptr;
   std::unique_ptr<TrackBed> bed_;
   std::unique_ptr<FieldsFile> fields_;
+  std::unique_ptr<SensorFile> sensors_;
   State before_window_;
   double window_s_ = 0.0, output_interval_ = 0.0;
-  double committed_step_ = 0.0;  ///< largest stable one from the last commit [s]
-  std::vector<double> rail_foot_;  ///< at the end of the last window
+  double committed_step_ = 0.0;           ///< largest stable one from the last commit [s]
+  std::int64_t windows_above_bound_ = 0;  ///< whose contacts turned out stiffer than foreseen, in spite of the safety
+  std::vector<double> rail_foot_;         ///< at the end of the last window
   bool relaxing_ = false, marching_ = false;
 };
 

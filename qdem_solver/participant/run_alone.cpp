@@ -3,25 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "proto/error.hpp"
 #include "qdem_solver/output/fields_file.hpp"
+#include "qdem_solver/sensors/sensor_file.hpp"
 
 namespace qdem {
 namespace {
 
 /// Steps between two looks at load and step; the force lags by at most as many.
 constexpr std::int64_t steps_per_look = 25;
-
-double interpolated(const RunAlone& run, double time) {
-  const auto next = std::upper_bound(run.load_time.begin(), run.load_time.end(), time);
-  if (next == run.load_time.begin()) return run.load_force.front();
-  if (next == run.load_time.end()) return run.load_force.back();
-  const auto i = static_cast<std::size_t>(next - run.load_time.begin());
-  const double share = (time - run.load_time[i - 1]) / (run.load_time[i] - run.load_time[i - 1]);
-  return run.load_force[i - 1] + share * (run.load_force[i] - run.load_force[i - 1]);
-}
 
 /// Rail foot that presses every cell with a given force: it follows the sleeper, deeper by the spring's compression.
 class PressingFoot {
@@ -47,39 +40,48 @@ class PressingFoot {
   std::vector<double> foot_;
 };
 
+/// qdem.h5 and sensors.h5, written when they are due.
 class OutputClock {
  public:
   OutputClock(TrackBed& bed, const proto::CaseFile& file, const std::string& out)
       : bed_(bed), interval_(bed.settings().run.output_interval) {
-    if (interval_ <= 0) return;
-    path_ = out + "/qdem.h5";
-    fields_.emplace(path_, bed.model(), bed.state(), bed.attributes(file));
-    fields_->write(0.0, bed.state(), bed.engine());
+    const auto attributes = bed.attributes(file);
+    if (interval_ > 0) {
+      path_ = out + "/qdem.h5";
+      fields_.emplace(path_, bed.model(), bed.state(), attributes);
+    }
+    const SensorsSettings& sensors = bed.settings().sensors;
+    if (!sensors.list.empty()) sensors_.emplace(out + "/sensors.h5", sensors, bed.model(), bed.state(), attributes);
+    look();
+  }
+  /// When something is due next [s].
+  double next_time() const {
+    double next = std::numeric_limits<double>::infinity();
+    if (fields_) next = static_cast<double>(n_written_) * interval_;
+    if (sensors_) next = std::min(next, sensors_->next_time());
+    return next;
   }
   void look() {
     const double time = bed_.state().time;
-    if (!fields_ || time < static_cast<double>(n_written_) * interval_ * (1 - 1e-12)) return;
+    if (sensors_) sensors_->look(time, bed_.state(), bed_.engine().contacts());
+    if (!fields_ || time < static_cast<double>(n_written_) * interval_ * (1 - 1e-9)) return;
     fields_->write(time, bed_.state(), bed_.engine());
-    n_written_ = static_cast<std::int64_t>(std::floor(time / interval_ * (1 + 1e-12))) + 1;
+    ++n_written_;
   }
   std::string close() {
     if (fields_) fields_->close();
+    if (sensors_) sensors_->close();
     return path_;
   }
 
  private:
   TrackBed& bed_;
   double interval_;
-  std::int64_t n_written_ = 1;
+  std::int64_t n_written_ = 0;
   std::string path_;
   std::optional<FieldsFile> fields_;
+  std::optional<SensorFile> sensors_;
 };
-
-std::int64_t n_elements(const Model& model) {
-  std::int64_t sum = 0;
-  for (std::size_t body = 0; body < model.bodies.size(); ++body) sum += model.shape(static_cast<int>(body)).n_tets();
-  return sum;
-}
 
 void add_end_state(TrackBed& bed, RunFigures& figures) {
   figures.kinetic_energy = bed.engine().energies(bed.state()).kinetic;
@@ -102,18 +104,18 @@ RunFigures run_alone(const proto::CaseFile& file, const BedSource& source, const
   OutputClock output(bed, file, out);
   RunFigures figures;
   std::optional<PressingFoot> foot;
-  if (!run.load_time.empty()) foot.emplace(bed, interpolated(run, 0.0));
+  if (run.load) foot.emplace(bed, run.load(0.0));
   const auto begin = std::chrono::steady_clock::now();
   figures.smallest_step = run.duration;
   for (std::int64_t look = 1; run.duration - bed.state().time > 1e-9 * bed.largest_step(); ++look) {
-    const double left = run.duration - bed.state().time;
+    const double left = std::min(run.duration, output.next_time()) - bed.state().time;
     bed.find_step(steps_per_look * bed.largest_step());
     const auto wanted = static_cast<std::int64_t>(std::ceil(left / bed.largest_step()));
     const std::int64_t n = std::min(steps_per_look, wanted);
     const double dt = n == wanted ? left / static_cast<double>(n) : bed.largest_step();
     const double end = bed.state().time + dt * static_cast<double>(n);
     if (foot) {
-      foot->advance(dt, n, interpolated(run, end));
+      foot->advance(dt, n, run.load(end));
     } else {
       bed.engine().advance(bed.state(), dt, n);
     }
@@ -125,7 +127,7 @@ RunFigures run_alone(const proto::CaseFile& file, const BedSource& source, const
   }
   figures.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   figures.element_updates_per_s =
-      static_cast<double>(figures.steps) * static_cast<double>(n_elements(bed.model())) / figures.wall;
+      static_cast<double>(figures.steps) * static_cast<double>(bed.model().n_elements()) / figures.wall;
   add_end_state(bed, figures);
   figures.output = output.close();
   return figures;

@@ -14,7 +14,7 @@ namespace qdem {
 struct RunFigures {
   std::int64_t steps = 0;
   double smallest_step = 0.0, largest_step = 0.0;  ///< [s]
-  double wall = 0.0;  ///< integration only [s]
+  double wall = 0.0;                               ///< integration only [s]
   double element_updates_per_s = 0.0;
   double kinetic_energy = 0.0;        ///< at the end [J]
   double sleeper_displacement = 0.0;  ///< mean along the seats' normals at the end [m]
@@ -24,8 +24,9 @@ struct RunFigures {
 };
 
 /// Integrates the bed of `file` for [qdem.run] duration_s, damping off. With a load, every pad cell is pressed with its
-/// share (by stiffness) of the force interpolated in load_time_s/load_force_n; along the other axes the rail foot
-/// follows the sleeper. Writes `out`/qdem.h5 at multiples of output_interval_s.
+/// share (by stiffness) of the force of [qdem.run.load]; along the other axes the rail foot
+/// follows the sleeper. Writes `out`/qdem.h5 at multiples of output_interval_s, `out`/sensors.h5 at those of
+/// sensor_interval_s.
 /// `report(time)` is called now and then. Throws as TrackBed, and proto::Error (numerics).
 RunFigures run_alone(const proto::CaseFile& file, const BedSource& source, const std::string& out,
                      const std::function<void(double)>& report);

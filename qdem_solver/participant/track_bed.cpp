@@ -8,12 +8,14 @@
 
 #include "proto/error.hpp"
 #include "proto/result/provenance.hpp"
+#include "qdem_solver/contact/calibration.hpp"
 #include "qdem_solver/model/pad_cells.hpp"
 
 namespace qdem {
 namespace {
 
-constexpr double reserve = 2;  // speeds may grow while the step found holds
+constexpr double reserve = 2;               // speeds may grow while the step found holds
+constexpr double share_of_rounding = 0.01;  // so near is as good as touching, for bodies that hardly move
 
 Bed bed_of(const proto::CaseFile& file, const QdemCase& settings, const BedSource& source) {
   if (settings.threads > 0) omp_set_num_threads(settings.threads);
@@ -39,7 +41,8 @@ TrackBed::TrackBed(const proto::CaseFile& file, const BedSource& source, std::fu
 
 void TrackBed::find_step(double duration) {
   const double moved = reserve * 2 * engine_->largest_speed(bed_.state) * duration;
-  step_bound_ = bound_->at(bed_.state, engine_->contacts(), near_gap(bed_.model.contact) + moved);
+  const double near = share_of_rounding * bed_.model.contact.rounding;
+  step_bound_ = bound_->at(bed_.state, engine_->contacts(), near + moved);
   largest_step_ = settings_.step_safety * step_bound_;
   if (settings_.largest_step > 0) largest_step_ = std::min(largest_step_, settings_.largest_step);
 }
@@ -91,6 +94,9 @@ std::vector<proto::Fact> TrackBed::facts() const {
   add("bed.build_wall_s", report.build_wall_s);
   facts.push_back({"bed.hash", std::nullopt, report.hash});
   facts.push_back({"bed.source", std::nullopt, report.from_cache ? "cache" : "built"});
+  add("qdem.normal_stiffness_n_per_m", bed_.model.contact.normal_stiffness);
+  add("qdem.damping_ratio", bed_.model.contact.damping_ratio);
+  add("qdem.restitution", restitution_of(bed_.model.contact.damping_ratio));
   add("qdem.step_bound_s", step_bound_);
   add("qdem.largest_step_s", largest_step_);
   add("qdem.threads", settings_.threads > 0 ? settings_.threads : omp_get_max_threads());

@@ -38,10 +38,11 @@ class TrackBed {
   State& state() { return bed_.state; }
   Engine& engine() { return *engine_; }
   double largest_step() const { return largest_step_; }           ///< as last found, safety included [s]
+  double step_bound() const { return step_bound_; }               ///< the same without safety or limit of the case [s]
   double relaxation_step() const { return relaxation_->step(); }  ///< the same while relaxing [s]
 
-  /// Finds largest_step() for the next `duration` [s] of motion: contacts that may form meanwhile count. Never above the
-  /// case's largest_step_s.
+  /// Finds largest_step() for the next `duration` [s] of motion: contacts that may form meanwhile count. Never above
+  /// the case's largest_step_s.
   void find_step(double duration);
 
   /// From now on bodies are relaxed: Cundall's damping, and inertia that makes relaxation_step() stable.

@@ -1,9 +1,9 @@
-#include "qdem_solver/bed/rigid_fit.hpp"
+#include "qdem_solver/state/rigid_fit.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-namespace qdem::bed {
+namespace qdem {
 
 Placement rigid_fit(const Model& model, const State& state, int body, double scale) {
   using Eigen::Matrix3d, Eigen::Vector3d;
@@ -28,4 +28,4 @@ Placement rigid_fit(const Model& model, const State& state, int body, double sca
   return placement;
 }
 
-}  // namespace qdem::bed
+}  // namespace qdem

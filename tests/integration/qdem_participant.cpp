@@ -191,8 +191,10 @@ TEST(QdemAlone, CarriesTheLoadItIsGiven) {
   const auto file = proto::CaseFile::load(tests::small_bed_case(folder(), R"(threads = 1
 [qdem.run]
 duration_s = 0.06
-load_time_s = [0.0, 0.02]
-load_force_n = [0.0, 1500.0]
+[qdem.run.load]
+kind = "table"
+time_s = [0.0, 0.02]
+force_n = [0.0, 1500.0]
 )"));
   const auto figures = qdem::run_alone(file, tests::small_bed, folder(), {});
   EXPECT_TRUE(near_rel(figures.pad_force, -1500, 0.02));

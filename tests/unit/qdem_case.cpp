@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+
 #include "proto/error.hpp"
 #include "tests/support/small_bed.hpp"
 #include "tests/support/tolerance.hpp"
@@ -35,12 +38,80 @@ TEST(QdemCase, ReadsMaterialsAndContact) {
   EXPECT_EQ(settings.physics.ground_friction, 0.6);
 }
 
+namespace {
+
+/// The small case with other keys in place of the contact's stiffness and damping.
+qdem::ContactLaw contact(const std::string& keys) {
+  const auto path = tests::small_bed_case(testing::TempDir(), "");
+  std::ifstream in(path);
+  std::string text, line;
+  while (std::getline(in, line)) {
+    if (line.find("normal_stiffness") == 0) line = keys;
+    if (line.find("damping_ratio") == 0) continue;
+    text += line + "\n";
+  }
+  in.close();
+  std::ofstream(path) << text;
+  return qdem::read_qdem_case(proto::CaseFile::load(path)).physics.contact;
+}
+
+}  // namespace
+
+TEST(QdemCase, CalibratesTheContact) {
+  // The small case has stones of 1 GPa, nu 0.25.
+  const auto hertz = contact("hertz_load_n = 500.0\nhertz_radius_m = 5e-3\ndamping_ratio = 0.1\n");
+  const double modulus = 1e9 / 2 / (1 - 0.25 * 0.25);
+  EXPECT_TRUE(tests::near_rel(hertz.normal_stiffness, std::cbrt(6 * modulus * modulus * 5e-3 * 500), 1e-12));
+  // Undamped: half a period of sqrt(k/m) with half a stone's mass.
+  const auto timed = contact("contact_time_s = 1e-3\ncontact_mass_kg = 0.4\nrestitution = 1.0\n");
+  EXPECT_TRUE(tests::near_rel(timed.normal_stiffness, 0.2 * std::pow(M_PI / 1e-3, 2), 1e-9));
+  EXPECT_TRUE(tests::near_abs(timed.damping_ratio, 0.0, 1e-12));
+}
+
+TEST(QdemCase, RefusesAContactGivenTwiceOrByHalf) {
+  const auto refusal = [](const std::string& keys) -> std::string {
+    try {
+      contact(keys);
+    } catch (const proto::Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const std::string damping = "restitution = 0.8\n";
+  EXPECT_NE(refusal("normal_stiffness_n_per_m = 1e7\nhertz_load_n = 1.0\n" + damping).find("twice"), std::string::npos);
+  EXPECT_NE(refusal("hertz_load_n = 1.0\n" + damping).find("hertz_radius_m"), std::string::npos);
+  EXPECT_NE(refusal(damping).find("normal_stiffness_n_per_m"), std::string::npos);
+  EXPECT_NE(refusal("normal_stiffness_n_per_m = 1e7\n").find("give damping_ratio, or restitution"), std::string::npos);
+  EXPECT_NE(refusal("normal_stiffness_n_per_m = 1e7\nrestitution = 0.05\n").find("restitution"), std::string::npos);
+}
+
+TEST(QdemCase, ReadsLoadHistories) {
+  const auto load = [](const std::string& keys) { return read("[qdem.run.load]\n" + keys).run.load; };
+  const auto table = load("kind = \"table\"\ntime_s = [1.0, 3.0]\nforce_n = [10.0, 30.0]\n");
+  EXPECT_EQ(table(0.0), 10.0);
+  EXPECT_TRUE(tests::near_rel(table(1.5), 15.0, 1e-14));
+  EXPECT_EQ(table(9.0), 30.0);
+  const auto impulse = load("kind = \"half_sine\"\npeak_n = 100.0\nduration_s = 0.01\nstart_s = 0.02\n");
+  double sum = 0.0;
+  for (int i = 0; i < 40000; ++i) sum += 1e-6 * impulse(1e-6 * (i + 0.5));
+  EXPECT_TRUE(tests::near_rel(sum, 2 / M_PI * 100 * 0.01, 1e-6));
+  const auto cyclic =
+      load("kind = \"cyclic\"\nmean_n = 50.0\namplitude_n = 20.0\nfrequency_hz = 10.0\ncycles = 2\nstart_s = 0.1\n");
+  EXPECT_TRUE(tests::near_rel(cyclic(0.05), 25.0, 1e-12));
+  EXPECT_TRUE(tests::near_rel(cyclic(0.1 + 0.025), 70.0, 1e-12));
+  EXPECT_TRUE(tests::near_rel(cyclic(0.1 + 0.175), 30.0, 1e-12));
+  EXPECT_TRUE(tests::near_rel(cyclic(5.0), 50.0, 1e-12));
+  EXPECT_FALSE(read("").run.load);
+}
+
 TEST(QdemCase, RefusesWhatItCannotUse) {
   expect_refused("step_safty = 0.7\n", "step_safety");
   expect_refused("step_safety = 1.2\n", "qdem.step_safety");
   expect_refused("[[qdem.material]]\nname = \"stone\"\nyoung_pa = 1e9\npoisson = 0.2\ndensity_kg_per_m3 = 1\n",
                  "twice");
   expect_refused("[[qdem.material]]\nname = \"stoen\"\n", "stone");
-  expect_refused("[qdem.run]\nload_time_s = [0, 1]\nload_force_n = [5]\n", "1 forces for 2 times");
-  expect_refused("[qdem.run]\nload_time_s = [1, 1]\nload_force_n = [5, 6]\n", "do not ascend");
+  expect_refused("[qdem.run.load]\nkind = \"table\"\ntime_s = [0, 1]\nforce_n = [5]\n", "1 forces for 2 times");
+  expect_refused("[qdem.run.load]\nkind = \"table\"\ntime_s = [1, 1]\nforce_n = [5, 6]\n", "do not ascend");
+  expect_refused("[qdem.run.load]\nkind = \"half_sin\"\n", "half_sine");
+  expect_refused("[qdem.run.load]\nkind = \"half_sine\"\npeak_n = 5.0\n", "duration_s");
 }

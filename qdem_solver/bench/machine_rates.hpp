@@ -1,0 +1,14 @@
+// What the machine itself can do, to compare a solver's rates with.
+#pragma once
+
+namespace qdem::bench {
+
+struct MachineRates {
+  double flops = 0.0;  ///< double precision fused multiply-adds, two flops each, from registers [1/s]
+  double triad = 0.0;  ///< bytes moved by a = b + c d in memory, 24 a value [B/s]
+};
+
+/// Best of several rounds, all `threads` at once.
+MachineRates machine_rates(int threads);
+
+}  // namespace qdem::bench

@@ -1,0 +1,89 @@
+#include "qdem_solver/bench/rates.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+
+#include "qdem_solver/engine/engine.hpp"
+#include "qdem_solver/engine/stability.hpp"
+
+namespace qdem::bench {
+namespace {
+
+constexpr int rounds = 5;
+
+class Clock {
+ public:
+  double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(); }
+  double cpu() const { return static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC; }
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_ = std::clock();
+};
+
+}  // namespace
+
+Rate step_rate(Scene& scene, int threads, double dt, int n_steps) {
+  Engine engine(scene.model, {threads});
+  engine.prepare(scene.state);
+  Rate best;
+  for (int round = 0; round < rounds; ++round) {
+    const Clock clock;
+    engine.advance(scene.state, dt, n_steps);
+    best = {std::max(best.wall, n_steps / clock.wall()), std::max(best.cpu, n_steps / clock.cpu())};
+  }
+  return best;
+}
+
+ContactCost contact_cost(const Scene& scene) {
+  constexpr int repeats = 200;
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  ContactCost cost;
+  cost.candidates_time_s = 1e9;
+  State state = scene.state;
+  ContactStage stage(scene.model);
+  for (int round = 0; round < rounds; ++round) {
+    state.contact.list_id = 0;
+    const Clock clock;
+    stage.update_candidates(state);
+    cost.candidates_time_s = std::min(cost.candidates_time_s, clock.wall());
+  }
+  std::vector<double> force(state.x.size(), 0.0);
+  stage.compute(state, 0.0);
+  cost.live = stage.report(state).live;
+  for (int round = 0; round < rounds; ++round) {
+    const Clock clock;
+    for (int i = 0; i < repeats; ++i) {
+      stage.compute(state, 0.0);
+      for (int body = 0; body < static_cast<int>(scene.model.bodies.size()); ++body) stage.gather(body, force);
+    }
+    cost.pairs_per_s = std::max(cost.pairs_per_s, static_cast<double>(cost.live) * repeats / clock.wall());
+  }
+  omp_set_num_threads(threads);
+  return cost;
+}
+
+double stable_step(const Scene& scene) {
+  State state = scene.state;
+  Engine engine(scene.model);
+  engine.prepare(state);
+  return StepBound(scene.model).at(state, engine.contacts(), near_gap(scene.model.contact));
+}
+
+bool same_bits(const Scene& scene, int threads, int n_steps) {
+  State one = scene.state, several = scene.state;
+  for (auto [state, n] : {std::pair{&one, 1}, std::pair{&several, threads}}) {
+    Engine engine(scene.model, {n});
+    engine.prepare(*state);
+    engine.advance(*state, 1e-8, n_steps);
+  }
+  return std::memcmp(one.x.data(), several.x.data(), sizeof(double) * one.x.size()) == 0 &&
+         std::memcmp(one.v.data(), several.v.data(), sizeof(double) * one.v.size()) == 0;
+}
+
+}  // namespace qdem::bench

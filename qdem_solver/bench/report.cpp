@@ -1,0 +1,111 @@
+#include "qdem_solver/bench/report.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "qdem_solver/bench/counted.hpp"
+#include "qdem_solver/bench/machine_rates.hpp"
+#include "qdem_solver/bench/rates.hpp"
+#include "qdem_solver/engine/cpu/kernels.hpp"
+
+namespace qdem::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double tiny_step = 1e-8;  // [s], far below any bound: the cost of a step does not depend on it
+constexpr int small = 200'000, large = 2'000'000;
+constexpr double typical_speed = 0.1;    // of stones under traffic [m/s]: how long a candidate list lives
+constexpr double template_bytes = 34;    // an element: particles read and written, shape shared
+constexpr double own_shape_bytes = 114;  // the same with 80 bytes of reference shape
+
+Work element_work() {
+  const QuadrupleForce<Counted> force{Counted(1.0), Counted(1.0), {1, 1, 1, 1}};
+  Counted dx[9], dv[9], g[9], f[9];
+  Counted::work() = {};
+  force(dx, dv, g, Counted(1.0), f);
+  return Counted::work();
+}
+
+double element_rate(Scene scene, int threads) {
+  const auto n = static_cast<double>(scene.model.n_elements());
+  const int n_steps = std::max(3, static_cast<int>(2e7 / n));
+  return n * step_rate(scene, threads, tiny_step, n_steps).cpu * threads;
+}
+
+void add_elements(Json& report, const MachineRates& core, const Work& work) {
+  const double bound = core.flops / 2 / static_cast<double>(work.instructions);
+  const double general = element_rate(single_mesh(small), 1), general_large = element_rate(single_mesh(large), 1);
+  const double lanes = element_rate(stones(small), 1), lanes_large = element_rate(stones(large), 1);
+  report["fp_bound_elements_per_s_core"] = bound;
+  report["general_elements_per_s_core"] = general;
+  report["template_elements_per_s_core"] = lanes;
+  report["general_fraction_of_fp_bound"] = general / bound;
+  report["template_fraction_of_fp_bound"] = lanes / bound;
+  report["general_fraction_of_bandwidth"] = general_large * own_shape_bytes / core.triad;
+  report["template_fraction_of_bandwidth"] = lanes_large * template_bytes / core.triad;
+  report["rate_2m_over_200k"] = lanes_large / lanes;
+  report["general_rate_2m_over_200k"] = general_large / general;
+}
+
+void add_threads(Json& report) {
+  constexpr int threads = 2;
+  Scene scene = stones(small);
+  report["bitwise_equal"] = same_bits(scene, threads, 20);
+  const double one = step_rate(scene, 1, tiny_step, 100).wall, two = step_rate(scene, threads, tiny_step, 100).wall;
+  report["two_thread_speedup"] = two / one;
+}
+
+/// Costs of contact: pairs on the pile, whole steps on `scene`.
+void add_contact(Json& report, Scene scene, const std::string& name) {
+  const double pair_rate = contact_cost(pile()).pairs_per_s;
+  const ContactCost cost = contact_cost(scene);
+  const double dt = 0.8 * stable_step(scene);
+  const double step = 1 / step_rate(scene, 1, dt, 100).cpu;
+  const double parts =
+      static_cast<double>(scene.model.n_elements()) / report["template_elements_per_s_core"].get<double>() +
+      static_cast<double>(cost.live) / pair_rate;
+  const double skin = scene.model.contact.skin > 0 ? scene.model.contact.skin : scene.model.contact.rounding;
+  const double list_life = skin / 2 / (typical_speed * dt);  // steps
+  const auto n_bodies = static_cast<double>(scene.model.bodies.size());
+  report["contact_pairs_per_s_core"] = pair_rate;
+  report["whole_step_scene"] = name;
+  report["whole_step_s_core"] = step;
+  report["whole_step_over_parts"] = step / parts;
+  report["broad_phase_share"] = cost.candidates_time_s / (cost.candidates_time_s + list_life * step);
+  report["stone_steps_per_s_core"] = n_bodies / step;
+  report["tetrahedra_per_stone"] = static_cast<double>(scene.model.n_elements()) / n_bodies;
+  report["live_pairs_per_stone"] = static_cast<double>(cost.live) / n_bodies;
+}
+
+}  // namespace
+
+Json measure(const Scene* settled) {
+  const MachineRates core = machine_rates(1), pair = machine_rates(2);
+  const Work work = element_work();
+  Json report;
+  report["instruction_set"] = cpu::kernels().instruction_set;
+  report["fma_flops_per_s"] = {core.flops, pair.flops};
+  report["triad_bytes_per_s"] = {core.triad, pair.triad};
+  report["fp_instructions_per_element"] = work.instructions;
+  report["flops_per_element"] = work.flops;
+  report["bytes_per_element"] = {{"template", template_bytes}, {"own_shape", own_shape_bytes}};
+  add_elements(report, core, work);
+  add_threads(report);
+  add_contact(report, settled != nullptr ? *settled : pile(), settled != nullptr ? "bed" : "pile of boxes");
+  return report;
+}
+
+std::string table(const Json& report) {
+  std::string text;
+  for (const auto& [key, value] : report.items()) {
+    const std::string shown = value.is_number_float() ? fmt::format("{:.4g}", value.get<double>()) : value.dump();
+    text += fmt::format("{:34} {}\n", key, shown);
+  }
+  return text;
+}
+
+}  // namespace qdem::bench
