@@ -64,7 +64,7 @@ void add_contact(Json& report, Scene scene, const std::string& name) {
   const double pair_rate = contact_cost(pile()).pairs_per_s;
   const ContactCost cost = contact_cost(scene);
   const double dt = 0.8 * stable_step(scene);
-  const double step = 1 / step_rate(scene, 1, dt, 100).cpu;
+  const double step = 1 / step_rate(scene, 1, tiny_step, 100).cpu;
   const double parts =
       static_cast<double>(scene.model.n_elements()) / report["template_elements_per_s_core"].get<double>() +
       static_cast<double>(cost.live) / pair_rate;
