@@ -150,7 +150,7 @@ void Connection::watch_connection() {
 
 void Connection::take_frames() {
   zmq::message_t frame;
-  while (socket_.recv(frame, zmq::recv_flags::dontwait)) {
+  while (receive_part(socket_, frame)) {
     if (frame.more()) throw Error(ExitCode::protocol, "malformed frame: a message is one frame");
     take(decode({static_cast<const std::uint8_t*>(frame.data()), frame.size()}));
   }
@@ -200,8 +200,7 @@ void Connection::take(Message message) {
 /// False when the socket takes nothing at the moment.
 bool Connection::deliver(const Outgoing& outgoing) {
   const auto frame = encode({session_, sent_ + 1, outgoing.in_reply_to, outgoing.body});
-  const bool taken = socket_.send(zmq::buffer(frame), zmq::send_flags::dontwait).has_value();
-  if (!taken) return false;
+  if (!send_part(socket_, zmq::buffer(frame), zmq::send_flags::dontwait)) return false;
   ++sent_;
   if (std::holds_alternative<Result>(outgoing.body)) last_result_ = outgoing;
   if (std::holds_alternative<Bye>(outgoing.body)) finished_ = true;

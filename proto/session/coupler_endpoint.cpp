@@ -121,26 +121,24 @@ void CouplerEndpoint::Data::mark_broken(Peer& peer, ExitCode code, const std::st
 
 bool CouplerEndpoint::Data::transmit(const std::string& id, const Message& message) {
   const auto frame = encode(message);
-  while (true) {
-    try {
-      // A router that took the first part takes the second: only the first can block or fail.
-      return socket.send(zmq::buffer(id), zmq::send_flags::sndmore).has_value() &&
-             socket.send(zmq::buffer(frame), zmq::send_flags::none).has_value();
-    } catch (const zmq::error_t& error) {
-      if (error.num() == EHOSTUNREACH) return false;
-      if (error.num() != EINTR) throw;
-    }
+  try {
+    // A router that took the first part takes the second: only the first can block or fail.
+    return send_part(socket, zmq::buffer(id), zmq::send_flags::sndmore) &&
+           send_part(socket, zmq::buffer(frame), zmq::send_flags::none);
+  } catch (const zmq::error_t& error) {
+    if (error.num() == EHOSTUNREACH) return false;
+    throw;
   }
 }
 
 /// Reads one frame, if there is one, and turns it into at most one event.
 bool CouplerEndpoint::Data::receive_one(std::vector<EndpointEvent>& events) {
   zmq::message_t id_frame, frame, surplus;
-  if (!socket.recv(id_frame, zmq::recv_flags::dontwait)) return false;
-  bool well_formed = id_frame.more() && socket.recv(frame, zmq::recv_flags::dontwait).has_value();
+  if (!receive_part(socket, id_frame)) return false;
+  bool well_formed = id_frame.more() && receive_part(socket, frame);
   for (bool more = frame.more(); more; more = surplus.more()) {
     well_formed = false;
-    if (!socket.recv(surplus, zmq::recv_flags::dontwait)) break;
+    if (!receive_part(socket, surplus)) break;
   }
   const std::string id = id_frame.to_string();
   const auto found = peers.find(id);

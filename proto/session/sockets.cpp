@@ -53,8 +53,8 @@ SocketMonitor::SocketMonitor(zmq::context_t& context, zmq::socket_t& watched)
 
 std::optional<SocketMonitor::Event> SocketMonitor::next() {
   zmq::message_t head, address;
-  if (!socket_.recv(head, zmq::recv_flags::dontwait)) return {};
-  (void)socket_.recv(address, zmq::recv_flags::dontwait);
+  if (!receive_part(socket_, head)) return {};
+  receive_part(socket_, address);
   if (head.size() != 6) return {};
   std::uint16_t kind;
   std::uint32_t value;

@@ -20,6 +20,29 @@ struct SocketSettings {
 /// Sets every option whose default could hang, grow or lose something silently. To call before bind or connect.
 void set_options(zmq::socket_t& socket, const SocketSettings& settings);
 
+/// What `call` returns, however often a signal's handler (a child ends, say) interrupts it: libzmq gives up even a call
+/// that does not wait.
+template <class Call>
+auto uninterrupted(Call call) {
+  while (true) {
+    try {
+      return call();
+    } catch (const zmq::error_t& error) {
+      if (error.num() != EINTR) throw;
+    }
+  }
+}
+
+/// The next part of a message, if one is there; never blocks.
+inline bool receive_part(zmq::socket_t& socket, zmq::message_t& part) {
+  return uninterrupted([&] { return socket.recv(part, zmq::recv_flags::dontwait).has_value(); });
+}
+
+/// False when the socket takes nothing in its send time-out.
+inline bool send_part(zmq::socket_t& socket, zmq::const_buffer part, zmq::send_flags flags) {
+  return uninterrupted([&] { return socket.send(part, flags).has_value(); });
+}
+
 /// zmq::poll that takes an interrupting signal for "nothing happened".
 template <std::size_t n>
 void poll_sockets(zmq::pollitem_t (&items)[n], std::chrono::milliseconds timeout, std::size_t used = n) {
