@@ -1,4 +1,6 @@
 // A whole session between serve() and the coupler's endpoint, and each break of its rules.
+#include <sys/time.h>
+
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -47,6 +49,46 @@ TEST_F(Session, runs_from_hello_to_bye_in_the_documented_order) {
                                       "advance 0.0", "rollback 0", "advance 0.1", "commit 0", "save a", "advance 1.0",
                                       "commit 1", "restore a", "advance 1.0", "commit 1", "finish"}));
   EXPECT_TRUE(endpoint->wait(0.3).empty()) << "leaving after Bye is no problem";
+}
+
+/// A signal every 20 us, whose handler does nothing but interrupt.
+class SignalStorm {
+ public:
+  SignalStorm() {
+    struct sigaction quiet {};
+    quiet.sa_handler = [](int) {};
+    sigaction(SIGALRM, &quiet, &before_);
+    const itimerval often{{0, 20}, {0, 20}};
+    setitimer(ITIMER_REAL, &often, nullptr);
+  }
+  ~SignalStorm() {
+    const itimerval never{};
+    setitimer(ITIMER_REAL, &never, nullptr);
+    sigaction(SIGALRM, &before_, nullptr);
+  }
+
+ private:
+  struct sigaction before_ {};
+};
+
+TEST_F(Session, interrupting_signals_break_nothing) {
+  open();
+  MockParticipant mock;
+  constexpr std::int64_t n = 2000;
+  auto served = serve_in_thread(mock, options());
+  {
+    const SignalStorm storm;
+    expect<Hello>();
+    expect<Interface>();
+    ask<Configured>(Configure{1e-3, n, LoadMode::robin, "out", {}, {}, {}, {}});
+    ask<Result>(Start{});
+    for (std::int64_t i = 0; i < n; ++i) {
+      ASSERT_EQ(ask<Result>(window(i)).window, i);
+      endpoint->send("mock", Commit{i});
+    }
+    ask<Bye>(Finish{});
+  }
+  EXPECT_EQ(served.get().code, 0);
 }
 
 TEST_F(Session, wrong_token_is_rejected) {
