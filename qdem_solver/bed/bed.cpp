@@ -89,6 +89,17 @@ void add_physics(InputHash& hash, const BedPhysics& p) {
   }
   hash.add(p.ground_friction);
   hash.add(p.gravity);
+  // Beds of quadruples keep the hash they had before there were bonds.
+  if (p.stone.interaction != Interaction::quadruple || p.sleeper.interaction != Interaction::quadruple) {
+    hash.add(static_cast<double>(p.stone.interaction)), hash.add(static_cast<double>(p.sleeper.interaction));
+  }
+}
+
+std::string hash_of(const bed::Settings& settings, const BedPhysics& physics) {
+  InputHash hash;
+  add_settings(hash, settings);
+  add_physics(hash, physics);
+  return hash.hex();
 }
 
 std::filesystem::path cache_of(const std::string& wanted) {
@@ -104,11 +115,9 @@ std::filesystem::path cache_of(const std::string& wanted) {
 
 Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::string& cache_folder) {
   const bed::Settings settings = bed::read_settings(file);
-  InputHash hash;
-  add_settings(hash, settings);
-  add_physics(hash, physics);
+  const std::string hash = hash_of(settings, physics);
   const auto folder = cache_of(cache_folder);
-  const auto path = folder / (hash.hex() + ".h5");
+  const auto path = folder / (hash + ".h5");
   if (std::filesystem::exists(path)) {
     Bed bed = read_bed_file(path.string(), physics);
     bed.report.from_cache = true;
@@ -122,10 +131,14 @@ Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::
                        folder.string(), "set QDEM_BED_CACHE to a folder you can write");
   }
   Bed bed = bed::Builder(settings, physics).build();
-  bed.report.hash = hash.hex();
+  bed.report.hash = hash;
   write_bed_file(path.string(), bed);
   spdlog::info("bed: stored as {}", path.string());
   return bed;
+}
+
+std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics) {
+  return hash_of(bed::read_settings(file), physics);
 }
 
 void check_bed(const proto::CaseFile& file) {

@@ -61,6 +61,9 @@ struct Bed {
 /// (porosity, rest, penetration, sleeper tilt); cannot_create, io_error for the cache.
 Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::string& cache_folder = {});
 
+/// Hash of all inputs of a bed, by which the cache knows it: 16 hexadecimal digits. Throws as make_bed for bad keys.
+std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics);
+
 /// Reads and checks [bed] and the geometry it implies without building anything. Throws as make_bed for bad keys.
 void check_bed(const proto::CaseFile& file);
 

@@ -84,6 +84,7 @@ void Builder::make_stones() {
   body.kind = BodyKind::sleeper, body.name = "sleeper", body.template_id = n_templates, body.material_id = 1;
   model_.bodies.push_back(body);
   model_.pad_body = sleeper;
+  model_.materials = {physics_.stone, physics_.sleeper};
   model_.gravity = physics_.gravity;
   make_batches(model_);
   state_ = make_state(model_, {Placement{}});

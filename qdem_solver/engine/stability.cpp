@@ -9,6 +9,8 @@
 #include <random>
 #include <utility>
 
+#include "qdem_solver/model/bond_network.hpp"
+
 namespace qdem {
 namespace {
 
@@ -47,9 +49,27 @@ class ScaledStiffness {
   std::vector<double> inverse_root_;
 };
 
+/// M^-1/2 K M^-1/2 of a body of scale 1 with the bonds of E = 1.
+class ScaledBonds {
+ public:
+  ScaledBonds(const Template& shape, double density) : stiffness_(bond_stiffness(shape, bonds_of(shape))) {
+    Eigen::VectorXd inverse_root(stiffness_.rows());
+    for (Eigen::Index i = 0; i < inverse_root.size(); ++i) {
+      inverse_root[i] = 1 / std::sqrt(density * shape.node_volumes[i / 3]);
+    }
+    stiffness_ = inverse_root.asDiagonal() * stiffness_ * inverse_root.asDiagonal();
+  }
+
+  Eigen::VectorXd operator()(const Eigen::VectorXd& y) const { return stiffness_ * y; }
+
+ private:
+  Eigen::SparseMatrix<double> stiffness_;
+};
+
 /// Largest eigenvalue of a symmetric operator: Lanczos estimate plus the residual of its vector, which bounds the error
 /// of the nearest eigenvalue.
-double largest_eigenvalue(const ScaledStiffness& op, Eigen::Index n) {
+template <class Operator>
+double largest_eigenvalue(const Operator& op, Eigen::Index n) {
   std::mt19937_64 random(20240229);
   Eigen::VectorXd now(n), before = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) now[i] = static_cast<double>(random() >> 11) * 0x1p-53 - 0.5;
@@ -112,6 +132,10 @@ double largest_stable_step(const Rates& rates) {
 }
 
 Rates template_rates(const Template& shape, const Material& material) {
+  if (material.interaction == Interaction::bond) {
+    const double unit = largest_eigenvalue(ScaledBonds(shape, material.density), 3 * shape.n_nodes());
+    return {material.young * unit, material.tensile_viscosity() * unit};
+  }
   return {largest_eigenvalue(shape, material.lambda(), material.mu(), material.density),
           largest_eigenvalue(shape, material.lame_viscosity, material.shear_viscosity, material.density)};
 }

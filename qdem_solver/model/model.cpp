@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "qdem_solver/model/bond_network.hpp"
+
 namespace qdem {
 namespace {
 
@@ -27,6 +29,14 @@ void add_batch(Model& model, const int* bodies, int n_bodies, int lanes) {
   // Whole groups of eight values: threads that own neighbouring batches then hardly share a cache line.
   model.n_values = (model.n_values + lane_width - 1) / lane_width * lane_width;
   model.batches.push_back(batch);
+}
+
+void make_missing_bonds(Model& model) {
+  for (const Body& body : model.bodies) {
+    Template& shape = model.templates[body.template_id];
+    if (shape.bonds || model.materials[body.material_id].interaction != Interaction::bond) continue;
+    shape.bonds = std::make_shared<const BondNetwork>(make_bond_network(shape));
+  }
 }
 
 }  // namespace
@@ -63,6 +73,7 @@ void make_batches(Model& model) {
     }
     for (; i < bodies.size(); ++i) add_batch(model, &bodies[i], 1, 1);
   }
+  make_missing_bonds(model);
 }
 
 }  // namespace qdem

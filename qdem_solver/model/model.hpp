@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ namespace qdem {
 
 inline constexpr int lane_width = 8;
 
+/// How the particles of a body act on each other.
+enum class Interaction {
+  quadruple,  ///< four at a time, as a constant-strain solid: physics/quadruple_force.hpp
+  bond,       ///< two at a time along the edges of the tetrahedra, as in ordinary DEM: physics/bond_force.hpp
+};
+
 /// Isotropic Kelvin-Voigt solid (physics of 3D linear viscoelasticity under finite rotation).
 struct Material {
   std::string name;
@@ -28,12 +35,20 @@ struct Material {
   double density = 0.0;         ///< [kg/m3]
   double lame_viscosity = 0.0;  ///< lambda_v [Pa s]
   double shear_viscosity = 0.0; ///< mu_v [Pa s]
+  Interaction interaction = Interaction::quadruple;
   double lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }
   double mu() const { return young / (2 * (1 + poisson)); }
+  /// Viscosity in uniaxial tension [Pa s]: what E is to the Lame constants; E times a common retardation time.
+  double tensile_viscosity() const {
+    const double sum = lame_viscosity + shear_viscosity;
+    return sum > 0 ? shear_viscosity * (3 * lame_viscosity + 2 * shear_viscosity) / sum : 0.0;
+  }
 };
 
 struct Triangle { std::array<int, 3> nodes; };               ///< outward by the right-hand rule
 struct Edge { std::array<int, 2> nodes; std::array<int, 2> triangles; bool sharp; };  ///< sharp: can touch another edge
+
+struct BondNetwork;
 
 /// Reference shape shared by bodies: topology, gradients, lumped volumes, skin. Built by make_template().
 struct Template {
@@ -48,6 +63,7 @@ struct Template {
   std::vector<int> surface_nodes;                     ///< ascending
   std::vector<int> adjacency_offsets, adjacency_slots;///< CSR: node -> 4 * tet + corner, ascending
   double whole_volume = 0.0;                          ///< [m3]
+  std::shared_ptr<const BondNetwork> bonds;           ///< made by make_batches() where a bonded body needs them
   double volume() const { return whole_volume; }
   int n_nodes() const { return static_cast<int>(nodes.size()); }
   int n_tets() const { return static_cast<int>(tets.size()); }
@@ -145,7 +161,8 @@ struct Model {
   std::int64_t n_elements() const;              ///< of all bodies
 };
 
-/// Sorts bodies into batches and sets their offsets. The order of `bodies` is kept; only batch and lane are written.
+/// Sorts bodies into batches and sets their offsets. The order of `bodies` is kept; only batch and lane are written, and the
+/// bonds of templates that bodies of bonded material use.
 void make_batches(Model& model);
 
 }  // namespace qdem

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "proto/error.hpp"
+#include "qdem_solver/model/adjacency.hpp"
 #include "qdem_solver/model/model.hpp"
 
 namespace qdem {
@@ -134,19 +135,13 @@ void add_edges(Template& shape, double sharp_angle_deg) {
 }
 
 void add_adjacency(Template& shape) {
-  std::vector<std::vector<int>> slots(shape.nodes.size());
-  for (int e = 0; e < shape.n_tets(); ++e) {
-    for (int corner = 0; corner < 4; ++corner) slots[shape.tets[e][corner]].push_back(4 * e + corner);
-  }
-  shape.adjacency_offsets.push_back(0);
+  Adjacency adjacency = make_adjacency(shape.n_nodes(), shape.tets);
   for (int i = 0; i < shape.n_nodes(); ++i) {
-    if (slots[i].empty()) {
-      throw Error(ExitCode::bad_data, "node " + std::to_string(i) + " belongs to no tetrahedron",
-                  "template " + shape.name);
-    }
-    shape.adjacency_slots.insert(shape.adjacency_slots.end(), slots[i].begin(), slots[i].end());
-    shape.adjacency_offsets.push_back(static_cast<int>(shape.adjacency_slots.size()));
+    if (adjacency.offsets[i] < adjacency.offsets[i + 1]) continue;
+    throw Error(ExitCode::bad_data, "node " + std::to_string(i) + " belongs to no tetrahedron",
+                "template " + shape.name);
   }
+  shape.adjacency_offsets = std::move(adjacency.offsets), shape.adjacency_slots = std::move(adjacency.slots);
 }
 
 }  // namespace

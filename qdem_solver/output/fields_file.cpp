@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "qdem_solver/physics/quadruple_energy.hpp"
+#include "qdem_solver/engine/stress.hpp"
 
 namespace qdem {
 namespace {
@@ -71,24 +71,6 @@ proto::FieldSeriesFile create(const std::string& path, const Model& model, const
   return proto::FieldSeriesFile::create(path, options);
 }
 
-struct ElementMotion {
-  Eigen::Matrix3d f, f_rate;
-};
-
-ElementMotion motion_of(const Model& model, const State& state, int body, int element) {
-  const Template& shape = model.shape(body);
-  const auto& tet = shape.tets[element];
-  Eigen::Matrix3d dx, dv;
-  for (int k = 0; k < 3; ++k) {
-    dx.col(k) = state.position(model, body, tet[k + 1]) - state.position(model, body, tet[0]);
-    dv.col(k) = state.velocity(model, body, tet[k + 1]) - state.velocity(model, body, tet[0]);
-  }
-  const Eigen::Matrix3d g =
-      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(shape.gradients[element].data());
-  const double scale = model.bodies[body].scale;
-  return {deformation_gradient(dx, g, scale), deformation_gradient(dv, g, scale)};
-}
-
 }  // namespace
 
 FieldsFile::FieldsFile(const std::string& path, const Model& model, const State& reference,
@@ -100,11 +82,8 @@ FieldsFile::FieldsFile(const std::string& path, const Model& model, const State&
 void FieldsFile::put_stresses(const State& state) {
   std::vector<double> von_mises, mean;
   for (int body = 0; body < n_bodies(model_); ++body) {
-    const Material& m = model_.material(body);
-    const QuadrupleMaterial material{m.lambda(), m.mu(), m.lame_viscosity, m.shear_viscosity};
     for (int e = 0; e < model_.shape(body).n_tets(); ++e) {
-      const auto motion = motion_of(model_, state, body, e);
-      const Eigen::Matrix3d stress = cauchy_stress(motion.f, motion.f_rate, material);
+      const Eigen::Matrix3d stress = element_stress(model_, state, body, e);
       mean.push_back(stress.trace() / 3);
       von_mises.push_back(std::sqrt(1.5) * (stress - mean.back() * Eigen::Matrix3d::Identity()).norm());
     }

@@ -14,8 +14,8 @@ namespace qdem {
 
 /// All bodies as one tetrahedral grid. Points are the positions of the state given to the constructor; `displacement`
 /// is measured from them. Point fields: displacement [m], velocity [m/s]. Cell fields: von_mises_stress, mean_stress
-/// (positive in tension) [Pa]. Static: body (number), sleeper (1 or 0). Histories with every step: time [s],
-/// kinetic_energy, strain_energy, contact_energy [J], touching (live contacts).
+/// (positive in tension; of bonds, element_stress()) [Pa]. Static: body (number), sleeper (1 or 0). Histories with
+/// every step: time [s], kinetic_energy, strain_energy, contact_energy [J], touching (live contacts).
 class FieldsFile {
  public:
   /// Creates `path`. `model` must outlive the object. Throws proto::Error (cannot_create).

@@ -26,6 +26,11 @@ Material read_material(const Section& section, const std::string& name) {
   return material;
 }
 
+Interaction read_interaction(const Section& qdem) {
+  const std::string name = qdem.choice_or("particle_interaction", "quadruple", {"quadruple", "bond"});
+  return name == "bond" ? Interaction::bond : Interaction::quadruple;
+}
+
 void read_materials(const Section& qdem, BedPhysics& physics) {
   bool has_stone = false, has_sleeper = false;
   for (const Section& section : qdem.sections("material")) {
@@ -39,6 +44,7 @@ void read_materials(const Section& qdem, BedPhysics& physics) {
     qdem.fail("material", std::string("the material '") + (has_stone ? "sleeper" : "stone") + "' is missing",
               "add a [[qdem.material]] with that name");
   }
+  physics.stone.interaction = physics.sleeper.interaction = read_interaction(qdem);
 }
 
 /// Exactly one of the alternatives must be there, each with all of its keys.

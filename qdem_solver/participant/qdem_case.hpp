@@ -28,7 +28,8 @@ struct QdemCase {
 };
 
 /// Reads
-///   [qdem] step_safety, largest_step_s, threads, gravity_m_per_s2, initialise_damping, sensor_interval_s
+///   [qdem] particle_interaction ("quadruple", "bond"), step_safety, largest_step_s, threads, gravity_m_per_s2,
+///     initialise_damping, sensor_interval_s
 ///   [[qdem.sensor]] (sensors/sensor_settings.hpp)
 ///   [[qdem.material]] name ("stone", "sleeper"; both once), young_pa, poisson, density_kg_per_m3, and either
 ///     retardation_time_s or lame_viscosity_pa_s with shear_viscosity_pa_s

@@ -22,6 +22,9 @@ struct QuadrupleMaterial {
 /// with s F and folds the powers of s into its coefficients.
 template <class Real>
 struct QuadrupleForce {
+  static constexpr int n_particles = 4;
+  static constexpr int n_shape = 9;  ///< values of g
+
   Real scale_squared;  ///< s^2 per lane
   Real inverse_scale;  ///< 1/s per lane
   QuadrupleMaterial material;

@@ -90,6 +90,17 @@ TEST(V4, LimitOnACubeMesh) {
   EXPECT_TRUE(near_rel(cheap, 0.408 * unit, 0.01));
 }
 
+TEST(V4, LimitOfBonds) {
+  for (const double tau : {0.0, 1e-6}) {
+    const auto model = tests::free_bodies(tests::box_template({6, 6, 6}, Eigen::Vector3d::Constant(6 * cube)),
+                                          tests::bonded(tests::with_retardation(tests::rock(), tau)));
+    const double computed = qdem::largest_stable_step(qdem::template_rates(model.templates[0], model.materials[0]));
+    const double limit = bisected_limit(model, 0.8 * computed, 1.2 * computed);
+    std::cout << "bonds, tau " << tau << ": limit " << limit << " s, computed " << computed << " s\n";
+    EXPECT_TRUE(near_rel(computed, limit, 0.01));
+  }
+}
+
 TEST(V4, LimitWithVoigtDamping) {
   for (const double tau : {1e-7, 1e-6}) {
     const auto model = rock_cube(tau);

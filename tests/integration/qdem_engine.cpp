@@ -18,10 +18,11 @@ using tests::near_rel;
 namespace {
 
 /// Twenty cubes of two sizes dropped in a heap on a rough ground plane, and a larger box of one lane among them.
-qdem::Model heap() {
+qdem::Model heap(qdem::Interaction interaction = qdem::Interaction::quadruple) {
   auto model = tests::free_bodies(tests::box_template({2, 2, 2}, {0.04, 0.04, 0.04}), tests::rock(), 20);
   model.materials[0].young = 1e8;
   model.materials[0] = tests::with_retardation(model.materials[0], 1e-6);
+  model.materials[0].interaction = interaction;
   model.templates.push_back(tests::box_template({12, 4, 3}, {0.3, 0.1, 0.08}));
   qdem::Body slab;
   slab.kind = qdem::BodyKind::sleeper, slab.name = "slab", slab.template_id = 1;
@@ -69,8 +70,9 @@ constexpr double step = 2e-5;
 
 }  // namespace
 
-TEST(Engine, ThreadsDoNotChangeABit) {
-  const auto model = heap();
+namespace {
+
+void expect_threads_change_no_bit(const qdem::Model& model) {
   qdem::State one = heap_state(model), two = one, three = one;
   qdem::Engine engine_one(model, {1}), engine_two(model, {2}), engine_three(model, {3});
   engine_one.prepare(one), engine_one.advance(one, step, 3000);
@@ -79,6 +81,16 @@ TEST(Engine, ThreadsDoNotChangeABit) {
   EXPECT_GT(engine_one.contacts().report(one).live, 4);
   expect_same_bytes(one, two);
   expect_same_bytes(one, three);
+}
+
+}  // namespace
+
+TEST(Engine, ThreadsDoNotChangeABit) {
+  expect_threads_change_no_bit(heap());
+}
+
+TEST(Engine, ThreadsDoNotChangeABitOfBonds) {
+  expect_threads_change_no_bit(heap(qdem::Interaction::bond));
 }
 
 TEST(Engine, RestoredSnapshotContinuesWithTheSameBytes) {
@@ -99,10 +111,11 @@ TEST(Engine, RestoredSnapshotContinuesWithTheSameBytes) {
   EXPECT_GT(engine.contacts().report(state).live, 4);
 }
 
-TEST(Engine, LanesAndSingleBodiesAgree) {
-  // The same distorted body once among siblings in lanes of three scales, once alone.
+namespace {
+
+/// The same distorted body once among siblings in lanes of three scales, once alone.
+void expect_lanes_and_single_bodies_agree(const qdem::Material& material) {
   const auto shape = tests::box_template({3, 2, 2}, {0.06, 0.04, 0.04}, 2e-3);
-  const auto material = tests::with_retardation(tests::rock(), 1e-7);
   auto many = tests::free_bodies(shape, material, 11);
   for (int i = 0; i < 11; ++i) many.bodies[i].scale = 0.8 + 0.05 * i;
   many.gravity = {1, 2, -9.81};
@@ -130,6 +143,16 @@ TEST(Engine, LanesAndSingleBodiesAgree) {
       EXPECT_LT((single.position(alone, 0, node) - all.position(many, body, node)).norm(), 1e-15 * 10) << body;
     }
   }
+}
+
+}  // namespace
+
+TEST(Engine, LanesAndSingleBodiesAgree) {
+  expect_lanes_and_single_bodies_agree(tests::with_retardation(tests::rock(), 1e-7));
+}
+
+TEST(Engine, LanesAndSingleBodiesAgreeOnBonds) {
+  expect_lanes_and_single_bodies_agree(tests::bonded(tests::with_retardation(tests::rock(), 1e-7)));
 }
 
 TEST(Engine, NamesTheBodyThatBlowsUp) {

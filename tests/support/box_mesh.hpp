@@ -16,8 +16,12 @@ struct Mesh {
   std::vector<std::array<int, 4>> tets;
 };
 
+/// How the bricks of a box are cut: all alike, or every brick as the mirror image of its neighbours, which leaves no
+/// direction preferred over its mirror images.
+enum class Cut { alike, mirrored };
+
 /// Box [0, size] of cells[0] x cells[1] x cells[2] bricks.
-inline Mesh box_mesh(std::array<int, 3> cells, const Eigen::Vector3d& size) {
+inline Mesh box_mesh(std::array<int, 3> cells, const Eigen::Vector3d& size, Cut cut = Cut::alike) {
   Mesh mesh;
   const auto id = [&](const std::array<int, 3>& p) { return (p[0] * (cells[1] + 1) + p[1]) * (cells[2] + 1) + p[2]; };
   for (int i = 0; i <= cells[0]; ++i) {
@@ -31,11 +35,17 @@ inline Mesh box_mesh(std::array<int, 3> cells, const Eigen::Vector3d& size) {
   for (int i = 0; i < cells[0]; ++i) {
     for (int j = 0; j < cells[1]; ++j) {
       for (int k = 0; k < cells[2]; ++k) {
+        std::array<int, 3> flip{i % 2, j % 2, k % 2};
+        if (cut == Cut::alike) flip = {0, 0, 0};
         for (int path = 0; path < 6; ++path) {
-          std::array<int, 3> corner{i, j, k};
+          std::array<int, 3> corner{i + flip[0], j + flip[1], k + flip[2]};
           std::array<int, 4> tet{id(corner)};
-          for (int step = 0; step < 3; ++step) ++corner[paths[path][step]], tet[step + 1] = id(corner);
-          if (path >= 3) std::swap(tet[2], tet[3]);  // the odd paths turn the other way
+          for (int step = 0; step < 3; ++step) {
+            const int axis = paths[path][step];
+            corner[axis] += flip[axis] ? -1 : 1, tet[step + 1] = id(corner);
+          }
+          const bool turned = (path >= 3) != ((flip[0] + flip[1] + flip[2]) % 2 == 1);
+          if (turned) std::swap(tet[2], tet[3]);  // the odd paths turn the other way, and so does a mirror
           mesh.tets.push_back(tet);
         }
       }
@@ -52,8 +62,9 @@ inline void distort(Mesh& mesh, double amount, unsigned seed = 1) {
   }
 }
 
-inline qdem::Template box_template(std::array<int, 3> cells, const Eigen::Vector3d& size, double distortion = 0.0) {
-  Mesh mesh = box_mesh(cells, size);
+inline qdem::Template box_template(std::array<int, 3> cells, const Eigen::Vector3d& size, double distortion = 0.0,
+                                   Cut cut = Cut::alike) {
+  Mesh mesh = box_mesh(cells, size, cut);
   if (distortion > 0) distort(mesh, distortion);
   return qdem::make_template("box", mesh.nodes, mesh.tets);
 }
@@ -83,6 +94,10 @@ inline std::vector<qdem::Placement> apart(int n, double distance) {
 
 inline qdem::Material rock() {
   return {"rock", 60e9, 0.25, 2700.0, 0.0, 0.0};
+}
+inline qdem::Material bonded(qdem::Material material) {
+  material.interaction = qdem::Interaction::bond;
+  return material;
 }
 inline qdem::Material with_retardation(qdem::Material material, double tau) {
   material.lame_viscosity = tau * material.lambda(), material.shear_viscosity = tau * material.mu();

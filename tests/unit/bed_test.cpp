@@ -175,6 +175,14 @@ TEST(Settings, RefuseWhatCannotBe) {
   EXPECT_NE(refusal("depth_m = -0.2\n"), "");
 }
 
+TEST(BedHash, KnowsHowParticlesInteract) {
+  const auto file = proto::CaseFile::load(case_with("seed = 7\n"));
+  qdem::BedPhysics physics;
+  const auto quadruples = bed_hash(file, physics);
+  physics.sleeper.interaction = qdem::Interaction::bond;
+  EXPECT_NE(bed_hash(file, physics), quadruples);
+}
+
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);

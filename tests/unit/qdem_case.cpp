@@ -104,7 +104,18 @@ TEST(QdemCase, ReadsLoadHistories) {
   EXPECT_FALSE(read("").run.load);
 }
 
+TEST(QdemCase, ReadsHowParticlesInteract) {
+  using qdem::Interaction;
+  EXPECT_EQ(read("").physics.stone.interaction, Interaction::quadruple);
+  EXPECT_EQ(read("particle_interaction = \"quadruple\"\n").physics.stone.interaction, Interaction::quadruple);
+  const auto physics = read("particle_interaction = \"bond\"\n").physics;
+  EXPECT_EQ(physics.stone.interaction, Interaction::bond);
+  EXPECT_EQ(physics.sleeper.interaction, Interaction::bond);
+}
+
 TEST(QdemCase, RefusesWhatItCannotUse) {
+  expect_refused("particle_interaction = \"bonds\"\n", "did you mean 'bond'");
+  expect_refused("particle_interactoin = \"bond\"\n", "particle_interaction");
   expect_refused("step_safty = 0.7\n", "step_safety");
   expect_refused("step_safety = 1.2\n", "qdem.step_safety");
   expect_refused("[[qdem.material]]\nname = \"stone\"\nyoung_pa = 1e9\npoisson = 0.2\ndensity_kg_per_m3 = 1\n",

@@ -122,23 +122,26 @@ void Engine::Data::add_load(const Batch& batch) {
 void Engine::Data::run(State& state, const Task& task, double dt, Span<const double> pad_force) {
   const Batch& batch = model.batches[task.batch];
   const Template& shape = model.templates[batch.template_id];
-  const auto material = cpu::material_of(model.materials[batch.material_id]);
+  const Material& solid = model.materials[batch.material_id];
+  const auto elements = cpu::view_of(shape, solid.interaction);
+  const auto material = cpu::material_of(solid);
+  const auto& law = cpu::kernels_of(kernels, solid.interaction);
   const double *x = &state.x[batch.offset], *v = &state.v[batch.offset];
   double* out = &force[batch.offset];
   if (task.kind == TaskKind::elements) {
     double* body_slots = &slots[tasks.slot_offsets[task.batch]];
-    kernels.single_forces({cpu::view_of(shape), material, batch.scale[0], task.first, task.last, x, v, body_slots});
+    law.single_forces({elements, material, batch.scale[0], task.first, task.last, x, v, body_slots});
     return;
   }
   if (task.kind == TaskKind::nodes) {
-    kernels.gather({shape.adjacency_offsets.data(), shape.adjacency_slots.data(), task.first, task.last,
+    kernels.gather({elements.adjacency_offsets, elements.adjacency_slots, task.first, task.last,
                     &slots[tasks.slot_offsets[task.batch]], out});
     if (!relaxing()) kick(state, batch, task.first, task.last, dt);
     return;
   }
   run_outer(task, pad_force);
   if (task.kind == TaskKind::outer) return;
-  kernels.lane_forces({cpu::view_of(shape), material, batch.scale.data(), x, v, out});
+  law.lane_forces({elements, material, batch.scale.data(), x, v, out});
   if (relaxing()) scale_inertia(state, batch, dt);
   kick(state, batch, 0, shape.n_nodes(), dt);
 }

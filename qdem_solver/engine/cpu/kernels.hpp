@@ -6,22 +6,32 @@
 
 #include <cstdint>
 
+#include "qdem_solver/physics/bond_force.hpp"
 #include "qdem_solver/physics/quadruple_force.hpp"
 
 namespace qdem::cpu {
 
-/// Topology and reference shape shared by the bodies of a batch.
-struct ShapeView {
-  const int* tets;          ///< [4 n_tets]
-  const double* gradients;  ///< [9 n_tets], rows of Dm^-1
-  const double* volumes;    ///< [n_tets]
-  int n_tets;
+/// Elements shared by the bodies of a batch, quadruples or bonds, and their reference shape.
+struct ElementView {
+  int n_elements;
+  int n_particles;        ///< of an element
+  const int* particles;   ///< [n_elements][n_particles]
+  const double* shapes;   ///< rows of Dm^-1 [n_elements][9], or rest lengths [n_elements]
+  const double* weights;  ///< volumes, or stiffness over E [n_elements]
+  const int* adjacency_offsets;
+  const int* adjacency_slots;
+};
+
+/// A material as every force law reads it.
+struct ElementMaterial {
+  QuadrupleMaterial quadruple;
+  BondMaterial bond;
 };
 
 /// Eight bodies side by side: x, v, force are the batch's own parts of the arrays, [node][component][8].
 struct LaneForces {
-  ShapeView shape;
-  QuadrupleMaterial material;
+  ElementView elements;
+  ElementMaterial material;
   const double* scale;  ///< [8]
   const double* x;
   const double* v;
@@ -30,13 +40,13 @@ struct LaneForces {
 
 /// Elements [first, last) of one body: x, v [node][component].
 struct SingleForces {
-  ShapeView shape;
-  QuadrupleMaterial material;
+  ElementView elements;
+  ElementMaterial material;
   double scale;
   int first, last;
   const double* x;
   const double* v;
-  double* slots;  ///< [n_tets][corner][component]: every element writes its own, nothing is added
+  double* slots;  ///< [n_elements][corner][component]: every element writes its own, nothing is added
 };
 
 /// x += dt (v + dt/2 a), v += dt a over `n` rows of `lanes` values.
@@ -96,10 +106,15 @@ struct Gather {
   double* force;
 };
 
-struct Kernels {
-  const char* instruction_set;
+/// Loops over the elements of one force law.
+struct ElementKernels {
   void (*lane_forces)(const LaneForces&);
   void (*single_forces)(const SingleForces&);
+};
+
+struct Kernels {
+  const char* instruction_set;
+  ElementKernels quadruple, bond;
   DriftResult (*drift)(const Drift&);
   void (*kick)(const Kick&);
   void (*gather)(const Gather&);

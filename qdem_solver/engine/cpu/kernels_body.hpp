@@ -19,62 +19,90 @@ inline void add_to(double* p, Vector value) {
   *reinterpret_cast<Loose*>(p) += value;
 }
 
+/// What the loops over elements have to know of a force law.
+struct Quadruples {
+  using Force = QuadrupleForce<Vector>;
+  static Force force(Vector scale, const ElementMaterial& material) {
+    return {scale * scale, 1.0 / scale, material.quadruple};
+  }
+};
+struct Bonds {
+  using Force = BondForce<Vector>;
+  static Force force(Vector scale, const ElementMaterial& material) { return {scale, material.bond}; }
+};
+
+/// One component of the sum of the forces on all particles but the first.
+template <int others>
+inline Vector sum_of(const Vector* force, int component) {
+  Vector sum = force[component];
+  for (int k = 1; k < others; ++k) sum += force[3 * k + component];
+  return sum;
+}
+
+template <class Law>
 void lane_forces(const LaneForces& job) {
+  using Force = typename Law::Force;
+  constexpr int others = Force::n_particles - 1;
   for (int lane = 0; lane < lanes; lane += width) {
     const Vector scale = load(job.scale + lane);
-    const QuadrupleForce<Vector> force{scale * scale, 1.0 / scale, job.material};
+    const Force force = Law::force(scale, job.material);
     const double* x = job.x + lane;
     const double* v = job.v + lane;
     double* out = job.force + lane;
-    for (int e = 0; e < job.shape.n_tets; ++e) {
-      const int* tet = job.shape.tets + 4 * e;
-      const int first = tet[0] * 3 * lanes;
-      Vector dx[9], dv[9], f[9];
+    for (int e = 0; e < job.elements.n_elements; ++e) {
+      const int* particles = job.elements.particles + Force::n_particles * e;
+      const int first = particles[0] * 3 * lanes;
+      Vector dx[3 * others], dv[3 * others], f[3 * others];
       for (int c = 0; c < 3; ++c) {
         const Vector x0 = load(x + first + c * lanes), v0 = load(v + first + c * lanes);
-        for (int k = 0; k < 3; ++k) {
-          const int other = tet[k + 1] * 3 * lanes + c * lanes;
+        for (int k = 0; k < others; ++k) {
+          const int other = particles[k + 1] * 3 * lanes + c * lanes;
           dx[3 * k + c] = load(x + other) - x0;
           dv[3 * k + c] = load(v + other) - v0;
         }
       }
-      force(dx, dv, job.shape.gradients + 9 * e, job.shape.volumes[e], f);
+      force(dx, dv, job.elements.shapes + Force::n_shape * e, job.elements.weights[e], f);
       for (int c = 0; c < 3; ++c) {
-        for (int k = 0; k < 3; ++k) add_to(out + tet[k + 1] * 3 * lanes + c * lanes, f[3 * k + c]);
-        add_to(out + first + c * lanes, -(f[c] + f[3 + c] + f[6 + c]));
+        for (int k = 0; k < others; ++k) add_to(out + particles[k + 1] * 3 * lanes + c * lanes, f[3 * k + c]);
+        add_to(out + first + c * lanes, -sum_of<others>(f, c));
       }
     }
   }
 }
 
 /// `count` <= width elements of one body, one a vector lane.
-inline void single_group(const SingleForces& job, const QuadrupleForce<Vector>& force, int first, int count) {
-  alignas(64) double dx[9][width], dv[9][width], g[9][width], volume[width], f[9][width];
+template <class Force>
+inline void single_group(const SingleForces& job, const Force& force, int first, int count) {
+  constexpr int n_particles = Force::n_particles, others = n_particles - 1, n_shape = Force::n_shape;
+  alignas(64) double dx[3 * others][width], dv[3 * others][width], shape[n_shape][width], weight[width];
+  alignas(64) double f[3 * others][width];
   for (int lane = 0; lane < width; ++lane) {
     const int e = first + (lane < count ? lane : 0);
-    const int* tet = job.shape.tets + 4 * e;
-    const double *x0 = job.x + 3 * tet[0], *v0 = job.v + 3 * tet[0];
-    for (int k = 0; k < 3; ++k) {
-      const double *xk = job.x + 3 * tet[k + 1], *vk = job.v + 3 * tet[k + 1];
+    const int* particles = job.elements.particles + n_particles * e;
+    const double *x0 = job.x + 3 * particles[0], *v0 = job.v + 3 * particles[0];
+    for (int k = 0; k < others; ++k) {
+      const double *xk = job.x + 3 * particles[k + 1], *vk = job.v + 3 * particles[k + 1];
       for (int c = 0; c < 3; ++c) dx[3 * k + c][lane] = xk[c] - x0[c], dv[3 * k + c][lane] = vk[c] - v0[c];
     }
-    for (int i = 0; i < 9; ++i) g[i][lane] = job.shape.gradients[9 * e + i];
-    volume[lane] = job.shape.volumes[e];
+    for (int i = 0; i < n_shape; ++i) shape[i][lane] = job.elements.shapes[n_shape * e + i];
+    weight[lane] = job.elements.weights[e];
   }
-  force(reinterpret_cast<const Vector*>(dx), reinterpret_cast<const Vector*>(dv), reinterpret_cast<const Vector*>(g),
-        load(volume), reinterpret_cast<Vector*>(f));
+  force(reinterpret_cast<const Vector*>(dx), reinterpret_cast<const Vector*>(dv),
+        reinterpret_cast<const Vector*>(shape), load(weight), reinterpret_cast<Vector*>(f));
   for (int lane = 0; lane < count; ++lane) {
-    double* slot = job.slots + 12 * (first + lane);
+    double* slot = job.slots + 3 * n_particles * (first + lane);
     for (int c = 0; c < 3; ++c) {
-      slot[c] = -(f[c][lane] + f[3 + c][lane] + f[6 + c][lane]);
-      for (int k = 0; k < 3; ++k) slot[3 * (k + 1) + c] = f[3 * k + c][lane];
+      double sum = f[c][lane];
+      for (int k = 1; k < others; ++k) sum += f[3 * k + c][lane];
+      slot[c] = -sum;
+      for (int k = 0; k < others; ++k) slot[3 * (k + 1) + c] = f[3 * k + c][lane];
     }
   }
 }
 
+template <class Law>
 void single_forces(const SingleForces& job) {
-  const Vector one = Vector{} + 1.0;
-  const QuadrupleForce<Vector> force{one * (job.scale * job.scale), one / job.scale, job.material};
+  const auto force = Law::force(Vector{} + job.scale, job.material);
   for (int e = job.first; e < job.last; e += width) {
     single_group(job, force, e, job.last - e < width ? job.last - e : width);
   }
@@ -291,7 +319,13 @@ void scale_inertia(const ScaleInertia& job) {
 }  // namespace
 
 const Kernels& QDEM_KERNELS() {
-  static const Kernels table{QDEM_INSTRUCTION_SET, lane_forces, single_forces, drift, kick, gather, scale_inertia};
+  static const Kernels table{QDEM_INSTRUCTION_SET,
+                             {lane_forces<Quadruples>, single_forces<Quadruples>},
+                             {lane_forces<Bonds>, single_forces<Bonds>},
+                             drift,
+                             kick,
+                             gather,
+                             scale_inertia};
   return table;
 }
 

@@ -3,15 +3,16 @@
 #include <cmath>
 
 #include "qdem_solver/engine/cpu/engine_data.hpp"
+#include "qdem_solver/model/bond_network.hpp"
 #include "qdem_solver/physics/quadruple_energy.hpp"
 
 namespace qdem {
 namespace {
 
-double strain_energy(const Model& model, const State& state, int body) {
+double quadruple_energy(const Model& model, const State& state, int body) {
   const Template& shape = model.shape(body);
   const double scale = model.bodies[body].scale;
-  const auto material = cpu::material_of(model.material(body));
+  const auto material = cpu::material_of(model.material(body)).quadruple;
   double sum = 0.0;
   for (int e = 0; e < shape.n_tets(); ++e) {
     const Eigen::Vector3d first = state.position(model, body, shape.tets[e][0]);
@@ -21,6 +22,23 @@ double strain_energy(const Model& model, const State& state, int body) {
     sum += scale * scale * scale * shape.volumes[e] * energy_density(deformation_gradient(dx, g, scale), material);
   }
   return sum;
+}
+
+double bond_energy(const Model& model, const State& state, int body) {
+  const BondNetwork& bonds = bonds_of(model.shape(body));
+  const BondForce<double> force{model.bodies[body].scale, cpu::material_of(model.material(body)).bond};
+  double sum = 0.0;
+  for (std::size_t b = 0; b < bonds.nodes.size(); ++b) {
+    const auto& [first, second] = bonds.nodes[b];
+    const Eigen::Vector3d dx = state.position(model, body, second) - state.position(model, body, first);
+    sum += force.energy(dx.data(), bonds.lengths[b], bonds.stiffness[b]);
+  }
+  return sum;
+}
+
+double strain_energy(const Model& model, const State& state, int body) {
+  const bool bonded = model.material(body).interaction == Interaction::bond;
+  return bonded ? bond_energy(model, state, body) : quadruple_energy(model, state, body);
 }
 
 double kinetic_energy_of(const Model& model, const State& state, int body) {

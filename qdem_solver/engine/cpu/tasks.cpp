@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "qdem_solver/model/bond_network.hpp"
+
 namespace qdem::cpu {
 namespace {
 
@@ -20,16 +22,18 @@ TaskList make_tasks(const Model& model) {
   TaskList list;
   std::vector<Task> batches;
   for (int b = 0; b < static_cast<int>(model.batches.size()); ++b) {
-    const Template& shape = model.templates[model.batches[b].template_id];
-    if (model.batches[b].lanes == 1) {
+    const Batch& batch = model.batches[b];
+    const Template& shape = model.templates[batch.template_id];
+    const ElementView elements = view_of(shape, model.materials[batch.material_id].interaction);
+    if (batch.lanes == 1) {
       list.forces.push_back({TaskKind::outer, b});
-      cut(list.forces, TaskKind::elements, b, shape.n_tets(), elements_per_task);
+      cut(list.forces, TaskKind::elements, b, elements.n_elements, elements_per_task);
       cut(list.nodes, TaskKind::nodes, b, shape.n_nodes(), nodes_per_task);
       list.singles.push_back(b);
       list.slot_offsets.push_back(list.n_slot_values);
-      list.n_slot_values += std::int64_t{12} * shape.n_tets();
+      list.n_slot_values += std::int64_t{3} * elements.n_particles * elements.n_elements;
     } else {
-      batches.push_back({TaskKind::batch, b, 0, shape.n_tets()});
+      batches.push_back({TaskKind::batch, b, 0, elements.n_elements});
       list.slot_offsets.push_back(-1);
     }
   }
@@ -38,12 +42,33 @@ TaskList make_tasks(const Model& model) {
   return list;
 }
 
-ShapeView view_of(const Template& shape) {
-  return {shape.tets.data()->data(), shape.gradients.data()->data(), shape.volumes.data(), shape.n_tets()};
+ElementView view_of(const Template& shape, Interaction interaction) {
+  if (interaction == Interaction::bond) {
+    const BondNetwork& bonds = bonds_of(shape);
+    return {static_cast<int>(bonds.nodes.size()),
+            BondForce<double>::n_particles,
+            bonds.nodes.data()->data(),
+            bonds.lengths.data(),
+            bonds.stiffness.data(),
+            bonds.adjacency.offsets.data(),
+            bonds.adjacency.slots.data()};
+  }
+  return {shape.n_tets(),
+          QuadrupleForce<double>::n_particles,
+          shape.tets.data()->data(),
+          shape.gradients.data()->data(),
+          shape.volumes.data(),
+          shape.adjacency_offsets.data(),
+          shape.adjacency_slots.data()};
 }
 
-QuadrupleMaterial material_of(const Material& material) {
-  return {material.lambda(), material.mu(), material.lame_viscosity, material.shear_viscosity};
+ElementMaterial material_of(const Material& material) {
+  return {{material.lambda(), material.mu(), material.lame_viscosity, material.shear_viscosity},
+          {material.young, material.tensile_viscosity()}};
+}
+
+const ElementKernels& kernels_of(const Kernels& kernels, Interaction interaction) {
+  return interaction == Interaction::bond ? kernels.bond : kernels.quadruple;
 }
 
 std::vector<double> inverse_masses(const Model& model) {

@@ -33,8 +33,9 @@ struct TaskList {
 
 TaskList make_tasks(const Model& model);
 
-ShapeView view_of(const Template& shape);
-QuadrupleMaterial material_of(const Material& material);
+ElementView view_of(const Template& shape, Interaction interaction);
+ElementMaterial material_of(const Material& material);
+const ElementKernels& kernels_of(const Kernels& kernels, Interaction interaction);
 
 /// 1/m per value, 0 for held components and spare lanes; laid out like State::x.
 std::vector<double> inverse_masses(const Model& model);
