@@ -26,6 +26,9 @@ struct Range {
   static Range between(double lowest, double highest) { return {lowest, highest}; }
 };
 
+/// Ending of a file's name with its dot, in small letters: ".stl".
+std::string file_ending(const std::string& path);
+
 class CaseFile;
 
 /// One table of the case file. Reading a key marks it as known; `finish()` refuses what was never read.
@@ -56,6 +59,12 @@ class Section {
   /// A path as written, relative paths resolved against the folder of the case file. Throws missing_input if there is
   /// no such file.
   std::string existing_path(const std::string& key) const;
+
+  /// Files that the text of a required key names, ascending by name: one file, all files of a folder that have one of
+  /// `endings` (".stl", in small letters; the case in the name does not matter), or those that match * and ? in the
+  /// last part of the path. Relative paths as in existing_path(). Throws missing_input where there is none, config for
+  /// a file with another ending that is not in a folder named as such.
+  std::vector<std::string> matching_files(const std::string& key, const std::vector<std::string>& endings) const;
 
   Section section(const std::string& key) const;                ///< sub-table, empty if absent
   std::vector<Section> sections(const std::string& key) const;  ///< array of tables, empty if absent

@@ -12,6 +12,7 @@
 
 #include "proto/case/case_file.hpp"
 #include "proto/error.hpp"
+#include "qdem_solver/bed/stone_export.hpp"
 #include "qdem_solver/bench/report.hpp"
 #include "qdem_solver/output/bed_file.hpp"
 #include "qdem_solver/output/fields_file.hpp"
@@ -103,6 +104,15 @@ void bench_command(const std::string& case_path, const std::string& json_path) {
   if (!out.flush()) {
     throw proto::Error(proto::ExitCode::cannot_create, "the report cannot be written", json_path);
   }
+}
+
+void stones_command(const std::string& case_path, const std::string& folder, const bed::Roughness& roughness) {
+  const auto file = proto::CaseFile::load(case_path);
+  check_command(file);
+  make_folder(folder);
+  const auto stones = bed::export_stones(file, folder, roughness);
+  for (const auto& note : stones.notes) fmt::print("{}\n", note);
+  for (const auto& path : stones.files) fmt::print("stone  {}\n", path);
 }
 
 }  // namespace qdem

@@ -5,6 +5,7 @@
 
 #include "proto/case/case_file.hpp"
 #include "qdem_solver/bed/bed.hpp"
+#include "qdem_solver/bed/rough_surface.hpp"
 
 namespace qdem {
 
@@ -24,5 +25,8 @@ void bed_command(const std::string& case_path, const std::string& path);
 /// `qdem_solver bench`: rates of this machine and of the solver on it, as a table and, with `json_path` not empty, in a
 /// file. With `case_path` not empty the costs of contact are those of its bed.
 void bench_command(const std::string& case_path, const std::string& json_path);
+
+/// `qdem_solver stones`: the case's stone templates as STL files in `folder`, which is created when missing.
+void stones_command(const std::string& case_path, const std::string& folder, const bed::Roughness& roughness);
 
 }  // namespace qdem

@@ -18,7 +18,8 @@
 namespace {
 
 struct Arguments {
-  std::string case_path, endpoint, out = ".", name = "qdem", bed_path = "bed.h5", json_path;
+  std::string case_path, endpoint, out = ".", name = "qdem", bed_path = "bed.h5", stones = "stones", json_path;
+  qdem::bed::Roughness roughness;
 };
 
 void check(const Arguments& arguments) {
@@ -54,6 +55,15 @@ int run(int argc, char** argv) {
   bench->add_option("--json", arguments.json_path, "file for the figures");
   bench->callback([&] { qdem::bench_command(arguments.case_path, arguments.json_path); });
 
+  auto* stones = app.add_subcommand("stones", "write the case's stone templates as STL, in mm at the sieve size d50");
+  stones->add_option("case", arguments.case_path, "case file")->required();
+  stones->add_option("-o,--output", arguments.stones, "folder to write to");
+  stones->add_option("--roughness", arguments.roughness.height, "uneven faces as of a scan: height over sieve size")
+      ->check(CLI::Range(0.0, 0.1));
+  stones->add_option("--facets", arguments.roughness.least_facets, "cut facets until a stone has so many")
+      ->check(CLI::Range(0, 100000));
+  stones->callback([&] { qdem::stones_command(arguments.case_path, arguments.stones, arguments.roughness); });
+
   auto* checker = app.add_subcommand("check", "validate the case without running it");
   checker->add_option("--case", arguments.case_path, "case file")->required();
   checker->callback([&] { check(arguments); });
@@ -73,10 +83,10 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-/// Threads that wait shall spin for about ten microseconds, then sleep: unlimited spinning stands in the way of the other
-/// processes of a coupled run, and on a busy machine of each other (measured: up to 60 times slower); sleeping at once
-/// costs a wake-up per loop (measured: 15.3 s instead of 10.5 s for a bed of 127 stones). libgomp reads its environment
-/// before main() begins, hence the second start of the program. A user's own setting is left alone.
+/// Threads that wait shall spin for about ten microseconds, then sleep: unlimited spinning stands in the way of the
+/// other processes of a coupled run, and on a busy machine of each other (measured: up to 60 times slower); sleeping at
+/// once costs a wake-up per loop (measured: 15.3 s instead of 10.5 s for a bed of 127 stones). libgomp reads its
+/// environment before main() begins, hence the second start of the program. A user's own setting is left alone.
 void limit_spinning(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
   setenv("GOMP_SPINCOUNT", "20000", 1);

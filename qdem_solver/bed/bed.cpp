@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include "proto/error.hpp"
 #include "qdem_solver/bed/builder.hpp"
@@ -23,6 +25,10 @@ class InputHash {
   void add(const std::vector<double>& values) {
     add(static_cast<double>(values.size()));
     for (const double value : values) add(value);
+  }
+  void add(const std::string& text) {
+    add(static_cast<double>(text.size()));
+    bytes_ += text;
   }
   std::string hex() const {
     char text[17];
@@ -89,17 +95,21 @@ void add_physics(InputHash& hash, const BedPhysics& p) {
   }
   hash.add(p.ground_friction);
   hash.add(p.gravity);
-  // Beds of quadruples keep the hash they had before there were bonds.
-  if (p.stone.interaction != Interaction::quadruple || p.sleeper.interaction != Interaction::quadruple) {
-    hash.add(static_cast<double>(p.stone.interaction)), hash.add(static_cast<double>(p.sleeper.interaction));
-  }
+  hash.add(static_cast<double>(p.stone.interaction)), hash.add(static_cast<double>(p.sleeper.interaction));
 }
 
-std::string hash_of(const bed::Settings& settings, const BedPhysics& physics) {
-  InputHash hash;
-  add_settings(hash, settings);
-  add_physics(hash, physics);
-  return hash.hex();
+/// Names and content. A bed of generated stones adds nothing.
+void add_stone_files(InputHash& hash, const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream content;
+    content << in.rdbuf();
+    if (!in)
+      throw proto::Error(proto::ExitCode::missing_input, "the stone file cannot be read", path,
+                         "check its permissions");
+    hash.add(std::filesystem::path(path).filename().string());
+    hash.add(content.str());
+  }
 }
 
 std::filesystem::path cache_of(const std::string& wanted) {
@@ -111,7 +121,19 @@ std::filesystem::path cache_of(const std::string& wanted) {
   return std::filesystem::path(".cache") / "beds";
 }
 
+std::string hash_of(const bed::Settings& settings, const BedPhysics& physics) {
+  InputHash hash;
+  add_settings(hash, settings);
+  add_physics(hash, physics);
+  add_stone_files(hash, settings.shapes.files);
+  return hash.hex();
+}
+
 }  // namespace
+
+std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics) {
+  return hash_of(bed::read_settings(file), physics);
+}
 
 Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::string& cache_folder) {
   const bed::Settings settings = bed::read_settings(file);
@@ -135,10 +157,6 @@ Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::
   write_bed_file(path.string(), bed);
   spdlog::info("bed: stored as {}", path.string());
   return bed;
-}
-
-std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics) {
-  return hash_of(bed::read_settings(file), physics);
 }
 
 void check_bed(const proto::CaseFile& file) {

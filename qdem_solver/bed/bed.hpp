@@ -61,7 +61,8 @@ struct Bed {
 /// (porosity, rest, penetration, sleeper tilt); cannot_create, io_error for the cache.
 Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::string& cache_folder = {});
 
-/// Hash of all inputs of a bed, by which the cache knows it: 16 hexadecimal digits. Throws as make_bed for bad keys.
+/// XXH3-64 of every input of the bed, the stone files' content among them: 16 hexadecimal digits, the name in the
+/// cache. Throws as make_bed for bad keys, missing_input for a stone file that cannot be read.
 std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics);
 
 /// Reads and checks [bed] and the geometry it implies without building anything. Throws as make_bed for bad keys.

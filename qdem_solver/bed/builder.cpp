@@ -7,8 +7,9 @@
 #include <cmath>
 
 #include "proto/error.hpp"
-#include "qdem_solver/state/rigid_fit.hpp"
+#include "qdem_solver/bed/polyhedron.hpp"
 #include "qdem_solver/bed/sleeper_shape.hpp"
+#include "qdem_solver/state/rigid_fit.hpp"
 
 namespace qdem::bed {
 namespace {
@@ -19,7 +20,7 @@ constexpr int sleeper = 0;                                     // body number
 constexpr double poured_speed = 0.06;                          // [m/s], below which a pouring is over
 constexpr double layer_pressure = 4e3, crib_pressure = 1.5e3;  // [Pa], where tamping ends
 /// Volume of a template rounded by r: Steiner's formula, V + A r + M r^2 + 4 pi/3 r^3 with M half the sum of edge
-/// length times exterior angle.
+/// length times exterior angle, which is negative at hollow edges.
 double rounded_volume(const Template& shape, double scale, double r) {
   double area = 0.0, curvature = 0.0;
   std::vector<Vector3d> normals;
@@ -31,7 +32,8 @@ double rounded_volume(const Template& shape, double scale, double r) {
   }
   for (const Edge& e : shape.edges) {
     const double angle = std::acos(std::clamp(normals[e.triangles[0]].dot(normals[e.triangles[1]]), -1.0, 1.0));
-    curvature += (shape.nodes[e.nodes[1]] - shape.nodes[e.nodes[0]]).norm() * angle / 2;
+    const double sign = is_hollow(shape, e) ? -1.0 : 1.0;
+    curvature += sign * (shape.nodes[e.nodes[1]] - shape.nodes[e.nodes[0]]).norm() * angle / 2;
   }
   return shape.volume() * std::pow(scale, 3) + area * scale * scale * r + curvature * scale * r * r +
          4 * M_PI / 3 * std::pow(r, 3);
@@ -67,6 +69,9 @@ double Builder::envelope_volume(int template_id, double size) const {
 void Builder::make_stones() {
   StoneTemplates stones = make_stone_templates(settings_.shapes);
   report_.notes = std::move(stones.notes);
+  if (!settings_.shapes.files.empty()) {
+    for (const std::string& note : report_.notes) spdlog::info("bed: {}", note);
+  }
   model_.templates = std::move(stones.templates);
   const Settings& s = settings_;
   const auto volume_of = [this](int template_id, double size) { return envelope_volume(template_id, size); };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "qdem_solver/bed/stone_files.hpp"
+
 namespace qdem::bed {
 namespace {
 
@@ -36,6 +38,16 @@ Gradation read_gradation(const Section& bed) {
   return gradation;
 }
 
+/// Stones from files have the shapes they have, and their number.
+void read_stone_files(const Section& bed, StoneShapes& shapes) {
+  for (const char* key : {"templates", "elongation", "flatness"}) {
+    if (bed.has(key))
+      bed.fail(key, "it is for generated stones, and stone_files gives stones", "remove one of the two");
+  }
+  shapes.files = bed.matching_files("stone_files", stone_file_endings);
+  shapes.n_templates = static_cast<int>(shapes.files.size());
+}
+
 StoneShapes read_shapes(const Section& bed, std::uint64_t seed) {
   StoneShapes shapes;
   shapes.seed = seed;
@@ -44,6 +56,7 @@ StoneShapes read_shapes(const Section& bed, std::uint64_t seed) {
   shapes.flatness = read_range(bed, "flatness", {0.55, 0.95}, Range::between(0.3, 1));
   const auto tets = read_range(bed, "elements_per_stone", {50, 100}, Range::between(20, 2000));
   shapes.least_tets = static_cast<int>(tets.lowest), shapes.most_tets = static_cast<int>(tets.highest);
+  if (bed.has("stone_files")) read_stone_files(bed, shapes);
   return shapes;
 }
 

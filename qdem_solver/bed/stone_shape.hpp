@@ -1,11 +1,11 @@
-// Stone templates: irregular convex polyhedra like crushed rock, filled with tetrahedra.
+// Stone templates: irregular convex polyhedra like crushed rock, or bodies from files, filled with tetrahedra.
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "qdem_solver/model/model.hpp"
+#include "qdem_solver/bed/polyhedron.hpp"
 
 namespace qdem::bed {
 
@@ -20,12 +20,7 @@ struct StoneShapes {
   ShapeRange flatness{0.55, 0.95};  ///< shortest / middle extent [-]
   int least_tets = 50, most_tets = 100;
   std::uint64_t seed = 1;
-};
-
-/// A closed surface of triangles, outward by the right-hand rule.
-struct Polyhedron {
-  std::vector<Eigen::Vector3d> corners;
-  std::vector<std::array<int, 3>> faces;
+  std::vector<std::string> files;  ///< of meshes or scans, a template each; empty: stones are generated
 };
 
 /// Convex hull of points in general position: every triangle that has all other points on one side. Meant for a few
@@ -36,18 +31,13 @@ Polyhedron convex_hull(const std::vector<Eigen::Vector3d>& points);
 /// over an ellipsoid at random, at least 30 degrees from each other seen from the centre, with a jitter of the radius.
 Polyhedron random_stone(double elongation, double flatness, std::uint64_t seed, std::uint64_t number);
 
-/// Tetrahedra of a closed polyhedron by Gmsh with edges of about `size` [m]. Throws proto::Error (bad_data) if it
-/// fails.
-Template mesh_polyhedron(const std::string& name, const Polyhedron& shape, double size);
-
 struct StoneTemplates {
   std::vector<Template> templates;  ///< middle extent 1 m: the scale of a body is its sieve size
-  std::vector<std::string> notes;   ///< candidates that were refused, with the reason
+  std::vector<std::string> notes;   ///< candidates that were refused, files that were repaired, with the reason
 };
 
-/// The templates of a bed. Of every candidate stone the mesh between least_tets and most_tets with the largest stable
-/// step is taken; candidates without one, or with a step below 0.75 of the median, are refused and reported.
-/// Reproducible from the seed.
+/// The templates of a bed, generated or from files: reproducible from the seed or from the files' content. Throws
+/// proto::Error (bad_data) for stones that cannot be meshed, or a file that read_stone_templates() refuses.
 StoneTemplates make_stone_templates(const StoneShapes& wanted);
 
 }  // namespace qdem::bed

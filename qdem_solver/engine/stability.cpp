@@ -123,6 +123,19 @@ std::vector<Rates> of_bodies(const Model& model, RatesOf rates_of) {
   return result;
 }
 
+std::vector<Rates> without_damping(std::vector<Rates> rates) {
+  for (Rates& of_body : rates) of_body.damping = 0.0;
+  return rates;
+}
+
+double least_step(const std::vector<Rates>& bodies, const std::vector<ContactRates>& contacts) {
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    step = std::min(step, largest_stable_step(bodies[b] + contacts[b].particle));
+  }
+  return step;
+}
+
 }  // namespace
 
 double largest_stable_step(const Rates& rates) {
@@ -175,17 +188,22 @@ Rates pad_rates(const Model& model) {
   return largest;
 }
 
-StepBound::StepBound(const Model& model) : model_(model), bodies_(element_rates(model)) {
-  if (!model.pads.empty()) bodies_[model.pad_body] = bodies_[model.pad_body] + pad_rates(model);
+StepBound::StepBound(const Model& model)
+    : model_(model), bodies_(element_rates(model)), elastic_bodies_(without_damping(bodies_)) {
+  if (model.pads.empty()) return;
+  for (auto* bodies : {&bodies_, &elastic_bodies_}) {
+    Rates& sleeper = (*bodies)[model.pad_body];
+    sleeper = sleeper + pad_rates(model);
+  }
 }
 
 double StepBound::at(const State& state, const ContactStage& contacts, double gap) const {
+  return least_step(bodies_, contacts.rates(state, gap));
+}
+
+double StepBound::viscosity_factor(const State& state, const ContactStage& contacts, double gap) const {
   const auto rates = contacts.rates(state, gap);
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    step = std::min(step, largest_stable_step(bodies_[b] + rates[b].particle));
-  }
-  return step;
+  return least_step(bodies_, rates) / least_step(elastic_bodies_, rates);
 }
 
 }  // namespace qdem

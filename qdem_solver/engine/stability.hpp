@@ -27,9 +27,12 @@ class StepBound {
   /// touching.
   double at(const State& state, const ContactStage& contacts, double gap) const;
 
+  /// at() over what it would be if the materials had no viscosity; the dashpots of contacts and pads stay [-].
+  double viscosity_factor(const State& state, const ContactStage& contacts, double gap) const;
+
  private:
   const Model& model_;
-  std::vector<Rates> bodies_;  ///< of elements and pads
+  std::vector<Rates> bodies_, elastic_bodies_;  ///< of elements and pads, with and without the elements' viscosity
 };
 
 /// Rates of a free body of scale 1: largest eigenvalues of the assembled operators with lumped masses, with the error

@@ -69,10 +69,18 @@ struct Template {
   int n_tets() const { return static_cast<int>(tets.size()); }
 };
 
+inline constexpr double default_sharp_angle_deg = 10.0;
+
+/// How messages about tetrahedra of a file name them and their volumes.
+struct TetLabels {
+  std::vector<std::size_t> tags;          ///< empty: their numbers from 0
+  const char* volume_unit = "m3";
+};
+
 /// Builds the derived parts. Throws proto::Error (bad_data) listing inverted or degenerate tetrahedra by id and volume.
 /// Edges whose faces meet at less than `sharp_angle_deg` are not sharp.
 Template make_template(std::string name, std::vector<Eigen::Vector3d> nodes, std::vector<std::array<int, 4>> tets,
-                       double sharp_angle_deg = 10.0);
+                       double sharp_angle_deg = default_sharp_angle_deg, const TetLabels& labels = {});
 
 enum class BodyKind { stone, sleeper, other };
 

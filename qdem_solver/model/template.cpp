@@ -45,12 +45,14 @@ void check_node_numbers(const Template& shape) {
   }
 }
 
-void refuse_bad_tets(const Template& shape) {
+void refuse_bad_tets(const Template& shape, const TetLabels& labels) {
   std::ostringstream list;
   int n_bad = 0;
   for (int e = 0; e < shape.n_tets(); ++e) {
     if (shape.volumes[e] > flat_share * std::pow(longest_edge(shape, shape.tets[e]), 3)) continue;
-    if (++n_bad <= 10) list << (n_bad > 1 ? ", " : "") << e << " (volume " << shape.volumes[e] << " m3)";
+    if (++n_bad > 10) continue;
+    list << (n_bad > 1 ? ", " : "") << (labels.tags.empty() ? e : labels.tags[e]) << " (volume " << shape.volumes[e]
+         << " " << labels.volume_unit << ")";
   }
   if (n_bad == 0) return;
   if (n_bad > 10) list << " and " << n_bad - 10 << " more";
@@ -114,6 +116,12 @@ bool is_sharp(const Template& shape, const Edge& edge, double sharp_angle_deg) {
   return false;
 }
 
+std::string in_words(const Eigen::Vector3d& x) {
+  std::ostringstream text;
+  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
+  return text.str();
+}
+
 void add_edges(Template& shape, double sharp_angle_deg) {
   std::map<std::array<int, 2>, std::vector<int>> owners;
   for (int t = 0; t < static_cast<int>(shape.triangles.size()); ++t) {
@@ -125,7 +133,8 @@ void add_edges(Template& shape, double sharp_angle_deg) {
       throw Error(ExitCode::bad_data,
                   "the surface is not closed and simple: " + std::to_string(triangles.size()) +
                       " triangles share the edge of nodes " + std::to_string(nodes[0]) + " and " +
-                      std::to_string(nodes[1]),
+                      std::to_string(nodes[1]) + ", " + in_words(shape.nodes[nodes[0]]) + " to " +
+                      in_words(shape.nodes[nodes[1]]),
                   "template " + shape.name, "parts of a body must share whole faces");
     }
     Edge edge{nodes, {triangles[0], triangles[1]}, false};
@@ -147,13 +156,13 @@ void add_adjacency(Template& shape) {
 }  // namespace
 
 Template make_template(std::string name, std::vector<Eigen::Vector3d> nodes, std::vector<std::array<int, 4>> tets,
-                       double sharp_angle_deg) {
+                       double sharp_angle_deg, const TetLabels& labels) {
   Template shape;
   shape.name = std::move(name), shape.nodes = std::move(nodes), shape.tets = std::move(tets);
   check_node_numbers(shape);
   add_gradients_and_volumes(shape);
   shape.whole_volume = std::accumulate(shape.volumes.begin(), shape.volumes.end(), 0.0);
-  refuse_bad_tets(shape);
+  refuse_bad_tets(shape, labels);
   add_skin(shape);
   add_edges(shape, sharp_angle_deg);
   add_adjacency(shape);

@@ -1,5 +1,7 @@
 #include "qdem_solver/participant/qdem_case.hpp"
 
+#include <cmath>
+
 #include "proto/error.hpp"
 #include "qdem_solver/contact/calibration.hpp"
 
@@ -9,18 +11,33 @@ namespace {
 using proto::Range;
 using proto::Section;
 
+/// Voigt damping of a harmonic strain at f has the loss factor 2 pi f tau.
+double time_of_loss_factor(const Section& section) {
+  const double loss_factor = section.number("loss_factor", Range::between(0.0, 1.0));
+  return loss_factor / (2 * M_PI * section.number("loss_factor_frequency_hz", Range::positive()));
+}
+
+/// tau [s]; 0 where the case gives viscosities, or none.
+double read_retardation_time(const Section& section) {
+  const bool by_time = section.has("retardation_time_s");
+  const bool by_loss = section.has("loss_factor") || section.has("loss_factor_frequency_hz");
+  const bool by_viscosity = section.has("lame_viscosity_pa_s") || section.has("shear_viscosity_pa_s");
+  if (by_time + by_loss + by_viscosity > 1) {
+    section.fail(by_time ? "retardation_time_s" : "loss_factor", "viscosity is given twice",
+                 "give one of: retardation_time_s; loss_factor with loss_factor_frequency_hz; lame_viscosity_pa_s with "
+                 "shear_viscosity_pa_s");
+  }
+  if (by_loss) return time_of_loss_factor(section);
+  return section.number_or("retardation_time_s", 0.0, Range::not_negative());
+}
+
 Material read_material(const Section& section, const std::string& name) {
   Material material;
   material.name = name;
   material.young = section.number("young_pa", Range::positive());
   material.poisson = section.number("poisson", Range::between(0.0, 0.49));
   material.density = section.number("density_kg_per_m3", Range::positive());
-  if (section.has("retardation_time_s") &&
-      (section.has("lame_viscosity_pa_s") || section.has("shear_viscosity_pa_s"))) {
-    section.fail("retardation_time_s", "viscosity is given twice",
-                 "give retardation_time_s, or lame_viscosity_pa_s and shear_viscosity_pa_s");
-  }
-  const double time = section.number_or("retardation_time_s", 0.0, Range::not_negative());
+  const double time = read_retardation_time(section);
   material.lame_viscosity = section.number_or("lame_viscosity_pa_s", time * material.lambda(), Range::not_negative());
   material.shear_viscosity = section.number_or("shear_viscosity_pa_s", time * material.mu(), Range::not_negative());
   return material;

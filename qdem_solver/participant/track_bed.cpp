@@ -99,6 +99,8 @@ std::vector<proto::Fact> TrackBed::facts() const {
   add("qdem.restitution", restitution_of(bed_.model.contact.damping_ratio));
   add("qdem.step_bound_s", step_bound_);
   add("qdem.largest_step_s", largest_step_);
+  add("qdem.damping_step_factor",
+      bound_->viscosity_factor(bed_.state, engine_->contacts(), near_gap(bed_.model.contact)));
   add("qdem.threads", settings_.threads > 0 ? settings_.threads : omp_get_max_threads());
   return facts;
 }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include "proto/case/case_file.hpp"
 #include "proto/error.hpp"
@@ -89,6 +91,16 @@ const BadInput bad_inputs[] = {
      ExitCode::config,
      "fem",
      {"'60E2' is not one of: 60E1", "fem.profile - did you mean '60E1'?"}},
+    {"damping_given_twice",
+     {{"retardation_time_s", "1e-6\nloss_factor = 0.01"}},
+     ExitCode::config,
+     "qdem",
+     {"viscosity is given twice", "qdem.material.retardation_time_s"}},
+    {"stones_from_files_and_generated",
+     {{"templates", "2\nstone_files = \"*.stl\""}},
+     ExitCode::config,
+     "qdem",
+     {"it is for generated stones, and stone_files gives stones", "bed.templates"}},
     {"step_above_the_bound",
      {{"threads", "1\nlargest_step_s = 1e-3"}},
      ExitCode::config,
@@ -144,6 +156,74 @@ TEST_P(SolverBadCase, IsNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SolverBadCase, ::testing::ValuesIn(bad_inputs),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+struct BadStone {
+  const char* name;
+  const char* file;     ///< beside the case
+  const char* content;  ///< of it
+  const char* pattern;  ///< of the case
+  ExitCode code;
+  std::vector<std::string> told;
+  friend void PrintTo(const BadStone& stone, std::ostream* out) { *out << stone.name; }
+};
+
+const char* const one_facet =
+    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid "
+    "a\n";
+/// Two tetrahedra that share a face, of which the second is inverted.
+const char* const inverted_mesh =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n$EndNodes\n"
+    "$Elements\n2\n41 4 2 1 1 1 2 3 4\n42 4 2 1 1 3 2 4 5\n$EndElements\n";
+
+const BadStone bad_stones[] = {
+    {"no_stone_file", "a.stl", one_facet, "b*.stl", ExitCode::missing_input, {"there is no file '", "bed.stone_files"}},
+    {"no_stone_in_the_folder",
+     "a.txt",
+     "",
+     ".",
+     ExitCode::missing_input,
+     {"has no file that ends on one of: .msh, .stl, .obj", "bed.stone_files"}},
+    {"stone_file_of_another_kind",
+     "a.ply",
+     "ply\n",
+     "a.ply",
+     ExitCode::config,
+     {"/a.ply' ends on none of: .msh, .stl, .obj", "bed.stone_files"}},
+    {"stone_file_that_is_none",
+     "a.stl",
+     "hello\n",
+     "a.stl",
+     ExitCode::bad_data,
+     {"it is not a whole surface in the format STL", "/a.stl"}},
+    {"open_stone", "a.stl", one_facet, "a.stl", ExitCode::bad_data, {"the surface is open: 3 edges", "/a.stl"}},
+    {"inverted_tetrahedron",
+     "a.msh",
+     inverted_mesh,
+     "a.msh",
+     ExitCode::bad_data,
+     {"1 inverted or flat tetrahedra: 42 (volume -", "/a.msh"}},
+};
+
+/// The case with stones from files, which excludes the number of generated ones.
+std::string case_of_stones(const std::string& pattern) {
+  auto text = tests::solver_case({{"seed", "1\nstone_files = \"" + pattern + "\""}});
+  const std::string generated = "templates = 2\n";
+  return text.erase(text.find(generated), generated.size());
+}
+
+class SolverBadStone : public SolverBadInput, public ::testing::WithParamInterface<BadStone> {};
+
+TEST_P(SolverBadStone, IsNamed) {
+  const auto& stone = GetParam();
+  CoupledRun run(case_of_stones(stone.pattern));
+  std::ofstream(std::filesystem::path(run.case_path()).replace_filename(stone.file)) << stone.content;
+  run.start();
+  EXPECT_EQ(run.wait(60.0).value_or(-1), static_cast<int>(stone.code)) << run.message();
+  expect_refusal(run, stone.code, "qdem", stone.told);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, SolverBadStone, ::testing::ValuesIn(bad_stones),
                          [](const auto& test) { return std::string(test.param.name); });
 
 /// Name of the file of the case's bed, which is built if no test before did.

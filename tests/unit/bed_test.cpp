@@ -12,6 +12,7 @@
 #include "qdem_solver/bed/stone_shape.hpp"
 #include "qdem_solver/contact/contact_stage.hpp"
 #include "qdem_solver/output/bed_file.hpp"
+#include "tests/support/box_mesh.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace {
@@ -121,6 +122,27 @@ TEST(Porosity, OfOneCubeIsItsClosedForm) {
   EXPECT_TRUE(near_abs(porosity(model, state, -half, half, 0.001, 0.002), 1 - std::pow(0.52, 3), 2e-3));
 }
 
+TEST(Porosity, OfAnAngleIsItsClosedForm) {
+  auto mesh = box_mesh({2, 1, 2}, Vector3d::Constant(0.1));
+  mesh.tets.resize(18);  // three of the four cells: the notch is at large x and z
+  mesh.nodes.erase(mesh.nodes.begin() + 17), mesh.nodes.erase(mesh.nodes.begin() + 14);  // of the fourth alone
+  for (auto& tet : mesh.tets) {
+    for (int& node : tet) node -= node > 14;
+  }
+  qdem::Model model;
+  model.templates.push_back(qdem::make_template("angle", mesh.nodes, mesh.tets));
+  model.materials.push_back({"rock", 6e10, 0.25, 2700, 0, 0});
+  model.bodies.emplace_back();
+  make_batches(model);
+  const auto state = make_state(model, {qdem::Placement{}});
+  EXPECT_FALSE(is_convex(model.templates[0]));
+  const Vector3d low = Vector3d::Constant(-0.05), high = Vector3d::Constant(0.15);
+  EXPECT_TRUE(near_abs(porosity(model, state, low, high, 0.005, 0.0), 1 - 0.75 / 8, 1e-12));
+  // Grown by r: the faces of the hull by r each, less the notch, which is r smaller on both sides.
+  const double r = 0.004, whole = std::pow(0.1 + 2 * r, 3), notch = std::pow(0.05, 2) * (0.1 + 2 * r);
+  EXPECT_TRUE(near_abs(porosity(model, state, low, high, 0.001, r), 1 - (whole - notch) / 0.008, 3e-3));
+}
+
 TEST(LooseStack, BoxesStayApartAndOnTheFloor) {
   const std::vector<qdem::Template> templates = {box_shape("long", {-0.7, -0.5, -0.3}, {0.7, 0.5, 0.3}, 0.5)};
   std::vector<Stone> stones(60, Stone{0, 0.05});
@@ -164,6 +186,42 @@ std::string refusal(const std::string& bed) {
     return error.what();
   }
   return {};
+}
+
+TEST(Settings, TakeStonesFromFiles) {
+  const auto folder = std::filesystem::path(case_with("")).parent_path();
+  for (const char* name : {"b.stl", "a.STL", "notes.txt"}) std::ofstream(folder / name) << "x";
+  const auto files = [](const std::string& bed) {
+    return read_settings(proto::CaseFile::load(case_with(bed))).shapes.files;
+  };
+  const std::vector<std::string> both = {(folder / "a.STL").string(), (folder / "b.stl").string()};
+  EXPECT_EQ(files("stone_files = \".\"\n"), both);
+  EXPECT_EQ(files("stone_files = \"*.[sS]*\"\n"), both);
+  EXPECT_EQ(files("stone_files = \"b.stl\"\n"), std::vector<std::string>{both[1]});
+  EXPECT_EQ(files(""), std::vector<std::string>{});
+  EXPECT_NE(refusal("stone_files = \"*\"\n").find("ends on none of: .msh, .stl, .obj"), std::string::npos);
+  EXPECT_NE(refusal("stone_files = \"b.stl\"\ntemplates = 3\n").find("bed.templates"), std::string::npos);
+  try {
+    files("stone_files = \"none/*.stl\"\n");
+    ADD_FAILURE() << "accepted";
+  } catch (const proto::Error& error) {
+    EXPECT_EQ(error.code(), proto::ExitCode::missing_input);
+    EXPECT_NE(std::string(error.what()).find("bed.stone_files"), std::string::npos) << error.what();
+  }
+}
+
+TEST(BedHash, KnowsTheStonesContent) {
+  const auto path = case_with("stone_files = \"s.stl\"\n");
+  const auto folder = std::filesystem::path(path).parent_path();
+  const auto hash = [&](const std::string& content) {
+    std::ofstream(folder / "s.stl") << content;
+    return qdem::bed_hash(proto::CaseFile::load(path), {});
+  };
+  const auto first = hash("one");
+  EXPECT_NE(first, hash("two"));
+  EXPECT_EQ(first, hash("one"));
+  const auto generated = qdem::bed_hash(proto::CaseFile::load(case_with("")), {});
+  EXPECT_NE(first, generated);
 }
 
 TEST(Settings, RefuseWhatCannotBe) {

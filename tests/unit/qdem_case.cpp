@@ -113,6 +113,34 @@ TEST(QdemCase, ReadsHowParticlesInteract) {
   EXPECT_EQ(physics.sleeper.interaction, Interaction::bond);
 }
 
+TEST(QdemCase, ALossFactorIsARetardationTime) {
+  const auto file = [&](const std::string& damping) {
+    std::string text = proto::CaseFile::load(tests::small_bed_case(testing::TempDir())).text();
+    const std::string own = "retardation_time_s = 1e-6";
+    text.replace(text.find(own), own.size(), damping);
+    const std::string path = testing::TempDir() + "loss_factor.toml";
+    std::ofstream(path) << text;
+    return proto::CaseFile::load(path);
+  };
+  const auto by_loss = qdem::read_qdem_case(file("loss_factor = 0.01\nloss_factor_frequency_hz = 2000")).physics.stone;
+  const double time = 0.01 / (2 * M_PI * 2000);
+  EXPECT_TRUE(tests::near_rel(by_loss.shear_viscosity, time * by_loss.mu(), 1e-14));
+  EXPECT_TRUE(tests::near_rel(by_loss.lame_viscosity, time * by_loss.lambda(), 1e-14));
+  const auto refusal = [&](const std::string& damping) -> std::string {
+    try {
+      qdem::read_qdem_case(file(damping));
+    } catch (const proto::Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const std::string loss = "loss_factor = 0.01\nloss_factor_frequency_hz = 2000\n";
+  EXPECT_NE(refusal(loss + "retardation_time_s = 1e-7").find("given twice"), std::string::npos);
+  EXPECT_NE(refusal(loss + "shear_viscosity_pa_s = 1").find("given twice"), std::string::npos);
+  EXPECT_NE(refusal("loss_factor = 0.01").find("loss_factor_frequency_hz"), std::string::npos);
+  EXPECT_NE(refusal("loss_factor_frequency_hz = 10").find("loss_factor"), std::string::npos);
+}
+
 TEST(QdemCase, RefusesWhatItCannotUse) {
   expect_refused("particle_interaction = \"bonds\"\n", "did you mean 'bond'");
   expect_refused("particle_interactoin = \"bond\"\n", "particle_interaction");
