@@ -99,6 +99,9 @@ inline qdem::Material bonded(qdem::Material material) {
   material.interaction = qdem::Interaction::bond;
   return material;
 }
+inline qdem::Material concrete() {
+  return {"concrete", 40e9, 0.2, 2400.0, 0.0, 0.0};
+}
 inline qdem::Material with_retardation(qdem::Material material, double tau) {
   material.lame_viscosity = tau * material.lambda(), material.shear_viscosity = tau * material.mu();
   return material;

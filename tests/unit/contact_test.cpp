@@ -169,6 +169,13 @@ std::vector<qdem::ContactKey> brute_force(const qdem::Model& model, const std::v
   std::vector<qdem::ContactKey> keys;
   const double* x = state.x.data();
   for (int a = 0; a < static_cast<int>(skins.size()); ++a) {
+    for (int p = 0; p < static_cast<int>(model.planes.size()); ++p) {
+      const auto& plane = model.planes[p];
+      for (const int node : model.shape(a).surface_nodes) {
+        const double height = plane.normal.dot(skins[a].at(x, node) - plane.point);
+        if (height <= reach - model.contact.rounding) keys.push_back({a, ~p, node, -1});
+      }
+    }
     for (int b = 0; b < static_cast<int>(skins.size()); ++b) {
       if (a == b) continue;
       for (const int node : model.shape(a).surface_nodes) {
@@ -196,7 +203,9 @@ std::vector<qdem::ContactKey> brute_force(const qdem::Model& model, const std::v
 }
 
 TEST(Candidates, AgreeWithBruteForce) {
-  const qdem::Model model = model_of_boxes(12);
+  qdem::Model model = model_of_boxes(12);
+  model.planes.push_back(
+      {"slope", {0, 0, -0.03}, Vector3d(0.2, -0.1, 1).normalized(), Vector3d::Zero(), 0.5, true, true});
   const auto skins = qdem::make_skins(model);
   for (int seed = 0; seed < 5; ++seed) {
     std::mt19937_64 random(100 + seed);
@@ -213,10 +222,11 @@ TEST(Candidates, AgreeWithBruteForce) {
 TEST(ContactStage, DegeneratePairsGiveFiniteForces) {
   const qdem::Model model = model_of_boxes(2);
   const double h = model.bodies[0].scale, g = model.bodies[1].scale;
-  // Equal faces in contact; corner on corner; edge along edge; the same place.
+  // Equal faces in contact; corner on corner; edge along edge; edges that cross in a point; the same place.
   const std::vector<Vector3d> shifts = {{0, 0, 0.02 * (h + g)},
                                         {0.03 * (h + g), 0.025 * (h + g), 0.02 * (h + g)},
                                         {0.03 * (h + g), 0, 0.02 * (h + g)},
+                                        {0.03 * h + 0.004, -0.025 * g + 0.003, 0.02 * (h + g)},
                                         {0, 0, 0}};
   for (const Vector3d& shift : shifts) {
     qdem::State state = make_state(model, {qdem::Placement{}, {Eigen::Matrix3d::Identity(), shift}});

@@ -52,7 +52,7 @@ TEST_P(Impact, ConservesEnergyAndMomenta) {
   const Momenta start = momenta(model, state);
   bool touched = false;
   double worst = 0;
-  for (int k = 0; k < 600 && state.time < 0.06; ++k) {
+  while (state.step < 100000) {
     engine.advance(state, dt, 200);
     touched = touched || engine.contacts().report(state).live > 0;
     worst = std::max(worst, std::abs(total() / before - 1));
