@@ -19,7 +19,6 @@ struct CaseInput {
 /// Reads and checks the coupler's own and the common sections. Throws proto::Error (config, missing_input).
 CaseInput read_case(const std::string& path);
 
-
 /// The participants' programs as absolute paths, in the order qdem, fem.
 /// Throws proto::Error (missing_input) naming the key of the program that is not there.
 std::vector<proto::ParticipantSpec> find_participants(const CaseInput& input);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "coupler/app/case_input.hpp"
 #include "coupler/app/options.hpp"

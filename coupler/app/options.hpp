@@ -7,18 +7,18 @@ namespace coupler {
 
 struct RunOptions {
   std::string case_path;
-  std::string out;     ///< empty: runs/<case>-<time>
-  std::string scheme;  ///< a name, or empty: as the case says
+  std::string out;        ///< empty: runs/<case>-<time>
+  std::string scheme;     ///< a name, or empty: as the case says
   double window_s = 0.0;  ///< instead of the case's; 0: as the case says [s]
-  int n_threads = 0;   ///< of each participant; 0: as the environment says
+  int n_threads = 0;      ///< of each participant; 0: as the environment says
 };
 
 /// Exit code of a completed, or cleanly interrupted, run. Throws proto::Error when it fails.
 int run_case(const RunOptions& options);
 
-/// Runs the case with its window H, then H/2, H/4, ... into folders of `options.out`, prints the observed order of every
-/// seat's motion and force, and writes convergence.csv. Exit code as run_case(); throws proto::Error (numerics) when an
-/// order is more than 0.2 below that of the scheme. `n_levels` >= 3.
+/// Runs the case with its window H, then H/2, H/4, ... into folders of `options.out`, prints the observed order of
+/// every seat's motion and force, and writes convergence.csv. Exit code as run_case(); throws proto::Error (numerics)
+/// when an order is more than 0.2 below that of the scheme. `n_levels` >= 3.
 int converge_case(const RunOptions& options, int n_levels);
 
 /// Validates the case: the coupler's own and the common sections, then each participant's `check`.

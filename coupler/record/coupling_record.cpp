@@ -63,7 +63,8 @@ void CouplingRecord::put_seats(const std::string& name, const std::vector<double
 void CouplingRecord::add_initial(const InterfaceState& initial) {
   const std::vector<double> zero(momentum_defect_sum_.size(), 0.0);
   file_.put("window", -1.0);
-  for (const char* name : {"time", "energy_defect_sum", "sub_cycles", "qdem_compute", "fem_compute"}) file_.put(name, 0.0);
+  for (const char* name : {"time", "energy_defect_sum", "sub_cycles", "qdem_compute", "fem_compute"})
+    file_.put(name, 0.0);
   for (const auto& column : seat_columns) put_seats(column.name, zero);
   put_seats("rail_displacement", initial.rail_displacement);
   put_seats("rail_velocity", initial.rail_velocity);

@@ -16,8 +16,8 @@ std::string seconds(double value, double total) {
 }  // namespace
 
 std::string run_table(const Summary& s, const std::string& out) {
-  std::string text = fmt::format("\n{}: {}, scheme {}, {} windows of {:g} s, up to {} sub-cycles\n", s.case_name, s.status,
-                                 s.scheme, s.n_windows, s.window_s, s.sub_cycles);
+  std::string text = fmt::format("\n{}: {}, scheme {}, {} windows of {:g} s, up to {} sub-cycles\n", s.case_name,
+                                 s.status, s.scheme, s.n_windows, s.window_s, s.sub_cycles);
   for (const auto& seat : s.seats) {
     text += fmt::format("rail seat '{}', largest along its normal\n", seat.name);
     text += row("seat force", fmt::format("{:>10.3f} kN", seat.max_force_n / 1e3));

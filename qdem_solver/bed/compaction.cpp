@@ -110,8 +110,7 @@ void Builder::march(Engine& engine, double dt, const Duration& duration, const R
   report_.largest_penetration = contacts.largest_penetration;
   spdlog::info(
       "bed: {}: {:.3f} s in {} steps of {:.2f} us ({:.1f} s of work), unbalanced force {:.1e}, kinetic energy {:.1e} "
-      "J, "
-      "{} contacts, penetration {:.3f} mm, sleeper at {:.3f} mm",
+      "J, {} contacts, penetration {:.3f} mm, sleeper at {:.3f} mm",
       stage_, state_.time - start, state_.step - first_step, 1e6 * dt, seconds_since(clock),
       report_.unbalanced_force_ratio, report_.kinetic_energy, contacts.live, 1e3 * report_.largest_penetration,
       1e3 * seat_height());

@@ -1,8 +1,6 @@
 #include "qdem_solver/bench/report.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -16,11 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double tiny_step = 1e-8;  // [s], far below any bound: the cost of a step does not depend on it
 constexpr int small = 200'000, large = 2'000'000;
-constexpr double typical_speed = 0.1;    // of stones under traffic [m/s]: how long a candidate list lives
-constexpr double template_bytes = 34;    // an element: particles read and written, shape shared
-constexpr double own_shape_bytes = 114;  // the same with 80 bytes of reference shape
+constexpr double typical_speed = 0.1;  // of stones under traffic [m/s]: how long a candidate list lives
 
 Work element_work() {
   const QuadrupleForce<Counted> force{Counted(1.0), Counted(1.0), {1, 1, 1, 1}};
@@ -30,16 +25,30 @@ Work element_work() {
   return Counted::work();
 }
 
-double element_rate(Scene scene, int threads) {
+/// Element updates a second on one core.
+double element_rate(Scene scene) {
   const auto n = static_cast<double>(scene.model.n_elements());
-  const int n_steps = std::max(3, static_cast<int>(2e7 / n));
-  return n * step_rate(scene, threads, tiny_step, n_steps).cpu * threads;
+  return n * step_rate(scene, 1, std::max(3, static_cast<int>(2e7 / n))).cpu;
+}
+
+/// Bytes that a step moves through memory for an element, if nothing stays in cache between two steps: of a particle's
+/// x, v, a and force every value read and written and 1/m read; of the element its numbers, gradients and volume where
+/// no other body shares them.
+double bytes_per_element(const Scene& scene) {
+  constexpr double value = sizeof(double), particle = 3 * (2 * 4 + 1) * value;
+  constexpr double shape = 4 * sizeof(int) + (9 + 1) * value;
+  const auto n = static_cast<double>(scene.model.n_elements());
+  const bool shared = scene.model.bodies.size() > scene.model.templates.size();
+  return particle * static_cast<double>(scene.model.n_values) / 3 / n + (shared ? 0.0 : shape);
 }
 
 void add_elements(Json& report, const MachineRates& core, const Work& work) {
   const double bound = core.flops / 2 / static_cast<double>(work.instructions);
-  const double general = element_rate(single_mesh(small), 1), general_large = element_rate(single_mesh(large), 1);
-  const double lanes = element_rate(stones(small), 1), lanes_large = element_rate(stones(large), 1);
+  const Scene mesh = single_mesh(large), many = stones(large);
+  const double general = element_rate(single_mesh(small)), general_large = element_rate(mesh);
+  const double lanes = element_rate(stones(small)), lanes_large = element_rate(many);
+  const double own_shape_bytes = bytes_per_element(mesh), template_bytes = bytes_per_element(many);
+  report["bytes_per_element"] = {{"template", template_bytes}, {"own_shape", own_shape_bytes}};
   report["fp_bound_elements_per_s_core"] = bound;
   report["general_elements_per_s_core"] = general;
   report["template_elements_per_s_core"] = lanes;
@@ -55,7 +64,7 @@ void add_threads(Json& report) {
   constexpr int threads = 2;
   Scene scene = stones(small);
   report["bitwise_equal"] = same_bits(scene, threads, 20);
-  const double one = step_rate(scene, 1, tiny_step, 100).wall, two = step_rate(scene, threads, tiny_step, 100).wall;
+  const double one = step_rate(scene, 1, 100).wall, two = step_rate(scene, threads, 100).wall;
   report["two_thread_speedup"] = two / one;
 }
 
@@ -64,7 +73,7 @@ void add_contact(Json& report, Scene scene, const std::string& name) {
   const double pair_rate = contact_cost(pile()).pairs_per_s;
   const ContactCost cost = contact_cost(scene);
   const double dt = 0.8 * stable_step(scene);
-  const double step = 1 / step_rate(scene, 1, tiny_step, 100).cpu;
+  const double step = 1 / step_rate(scene, 1, 100).cpu;
   const double parts =
       static_cast<double>(scene.model.n_elements()) / report["template_elements_per_s_core"].get<double>() +
       static_cast<double>(cost.live) / pair_rate;
@@ -92,7 +101,6 @@ Json measure(const Scene* settled) {
   report["triad_bytes_per_s"] = {core.triad, pair.triad};
   report["fp_instructions_per_element"] = work.instructions;
   report["flops_per_element"] = work.flops;
-  report["bytes_per_element"] = {{"template", template_bytes}, {"own_shape", own_shape_bytes}};
   add_elements(report, core, work);
   add_threads(report);
   add_contact(report, settled != nullptr ? *settled : pile(), settled != nullptr ? "bed" : "pile of boxes");

@@ -123,19 +123,6 @@ std::vector<Rates> of_bodies(const Model& model, RatesOf rates_of) {
   return result;
 }
 
-std::vector<Rates> without_damping(std::vector<Rates> rates) {
-  for (Rates& of_body : rates) of_body.damping = 0.0;
-  return rates;
-}
-
-double least_step(const std::vector<Rates>& bodies, const std::vector<ContactRates>& contacts) {
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    step = std::min(step, largest_stable_step(bodies[b] + contacts[b].particle));
-  }
-  return step;
-}
-
 }  // namespace
 
 double largest_stable_step(const Rates& rates) {
@@ -189,21 +176,26 @@ Rates pad_rates(const Model& model) {
 }
 
 StepBound::StepBound(const Model& model)
-    : model_(model), bodies_(element_rates(model)), elastic_bodies_(without_damping(bodies_)) {
-  if (model.pads.empty()) return;
-  for (auto* bodies : {&bodies_, &elastic_bodies_}) {
-    Rates& sleeper = (*bodies)[model.pad_body];
-    sleeper = sleeper + pad_rates(model);
+    : elements_(element_rates(model)), pads_(pad_rates(model)), pad_body_(model.pad_body) {}
+
+double StepBound::least_step(const std::vector<ContactRates>& contacts, bool viscous) const {
+  double step = std::numeric_limits<double>::infinity();
+  for (int b = 0; b < static_cast<int>(elements_.size()); ++b) {
+    Rates rates = elements_[b];
+    if (!viscous) rates.damping = 0.0;
+    if (b == pad_body_) rates = rates + pads_;
+    step = std::min(step, largest_stable_step(rates + contacts[b].particle));
   }
+  return step;
 }
 
 double StepBound::at(const State& state, const ContactStage& contacts, double gap) const {
-  return least_step(bodies_, contacts.rates(state, gap));
+  return least_step(contacts.rates(state, gap), true);
 }
 
 double StepBound::viscosity_factor(const State& state, const ContactStage& contacts, double gap) const {
   const auto rates = contacts.rates(state, gap);
-  return least_step(bodies_, rates) / least_step(elastic_bodies_, rates);
+  return least_step(rates, true) / least_step(rates, false);
 }
 
 }  // namespace qdem

@@ -20,7 +20,7 @@ double largest_stable_step(const Rates& rates);
 /// all bodies is the system's.
 class StepBound {
  public:
-  /// One Lanczos run per template and material. The model must outlive the bound and keep bodies, materials and pads.
+  /// One Lanczos run per template and material. It holds for as long as the model keeps bodies, materials and pads.
   explicit StepBound(const Model& model);
 
   /// Largest stable step [s] as long as no contact forms but between candidates that are now within `gap` [m] of
@@ -31,8 +31,11 @@ class StepBound {
   double viscosity_factor(const State& state, const ContactStage& contacts, double gap) const;
 
  private:
-  const Model& model_;
-  std::vector<Rates> bodies_, elastic_bodies_;  ///< of elements and pads, with and without the elements' viscosity
+  double least_step(const std::vector<ContactRates>& contacts, bool viscous) const;
+
+  std::vector<Rates> elements_;  ///< of every body
+  Rates pads_;
+  int pad_body_;
 };
 
 /// Rates of a free body of scale 1: largest eigenvalues of the assembled operators with lumped masses, with the error

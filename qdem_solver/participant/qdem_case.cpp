@@ -1,6 +1,8 @@
 #include "qdem_solver/participant/qdem_case.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "proto/error.hpp"
 #include "qdem_solver/contact/calibration.hpp"
@@ -11,24 +13,46 @@ namespace {
 using proto::Range;
 using proto::Section;
 
-/// Voigt damping of a harmonic strain at f has the loss factor 2 pi f tau.
-double time_of_loss_factor(const Section& section) {
-  const double loss_factor = section.number("loss_factor", Range::between(0.0, 1.0));
-  return loss_factor / (2 * M_PI * section.number("loss_factor_frequency_hz", Range::positive()));
+/// Ways to give one thing, each a set of keys that belong together.
+using Ways = std::vector<std::vector<std::string>>;
+
+std::string listed(const Ways& ways) {
+  std::string text;
+  for (const auto& keys : ways) {
+    if (!text.empty()) text += ", or ";
+    for (const std::string& key : keys) text += (&key == &keys.front() ? "" : " with ") + key;
+  }
+  return text;
 }
 
-/// tau [s]; 0 where the case gives viscosities, or none.
-double read_retardation_time(const Section& section) {
-  const bool by_time = section.has("retardation_time_s");
-  const bool by_loss = section.has("loss_factor") || section.has("loss_factor_frequency_hz");
-  const bool by_viscosity = section.has("lame_viscosity_pa_s") || section.has("shear_viscosity_pa_s");
-  if (by_time + by_loss + by_viscosity > 1) {
-    section.fail(by_time ? "retardation_time_s" : "loss_factor", "viscosity is given twice",
-                 "give one of: retardation_time_s; loss_factor with loss_factor_frequency_hz; lame_viscosity_pa_s with "
-                 "shear_viscosity_pa_s");
+/// The way that the section takes, if it takes one; two are refused.
+std::optional<std::size_t> taken(const Section& section, const std::string& what, const Ways& ways) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const bool any = std::any_of(ways[i].begin(), ways[i].end(), [&](const auto& key) { return section.has(key); });
+    if (!any) continue;
+    if (found) section.fail(ways[i].front(), what + " is given twice", "give " + listed(ways));
+    found = i;
   }
-  if (by_loss) return time_of_loss_factor(section);
-  return section.number_or("retardation_time_s", 0.0, Range::not_negative());
+  return found;
+}
+
+std::size_t required(const Section& section, const std::string& what, const Ways& ways) {
+  const auto found = taken(section, what, ways);
+  if (!found) section.fail(ways.front().front(), what + " is missing", "give " + listed(ways));
+  return *found;
+}
+
+/// tau [s]; 0 where the case gives viscosities, or none. Voigt damping of a harmonic strain at f has the loss factor
+/// 2 pi f tau.
+double read_retardation_time(const Section& section) {
+  const auto way = taken(section, "viscosity",
+                         {{"lame_viscosity_pa_s", "shear_viscosity_pa_s"},
+                          {"loss_factor", "loss_factor_frequency_hz"},
+                          {"retardation_time_s"}});
+  if (way != 1) return section.number_or("retardation_time_s", 0.0, Range::not_negative());
+  const double loss_factor = section.number("loss_factor", Range::between(0.0, 1.0));
+  return loss_factor / (2 * M_PI * section.number("loss_factor_frequency_hz", Range::positive()));
 }
 
 Material read_material(const Section& section, const std::string& name) {
@@ -64,24 +88,8 @@ void read_materials(const Section& qdem, BedPhysics& physics) {
   physics.stone.interaction = physics.sleeper.interaction = read_interaction(qdem);
 }
 
-/// Exactly one of the alternatives must be there, each with all of its keys.
-std::size_t chosen(const Section& section, const std::vector<std::vector<std::string>>& alternatives) {
-  std::string listed;
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < alternatives.size(); ++i) {
-    bool any = false;
-    for (const std::string& key : alternatives[i]) any = any || section.has(key);
-    if (any) found.push_back(i);
-    listed += (i == 0 ? "" : ", or ");
-    for (std::size_t k = 0; k < alternatives[i].size(); ++k) listed += (k == 0 ? "" : " with ") + alternatives[i][k];
-  }
-  if (found.size() == 1) return found.front();
-  section.fail(alternatives[found.empty() ? 0 : found.back()].front(),
-               found.empty() ? "it is missing" : "the same is given twice", "give " + listed);
-}
-
 double read_damping_ratio(const Section& section) {
-  if (chosen(section, {{"damping_ratio"}, {"restitution"}}) == 0) {
+  if (required(section, "the contact's damping", {{"damping_ratio"}, {"restitution"}}) == 0) {
     return section.number("damping_ratio", Range::between(0.0, 1.0));
   }
   return damping_ratio_for(section.number("restitution", Range::between(least_restitution(), 1.0)));
@@ -89,8 +97,8 @@ double read_damping_ratio(const Section& section) {
 
 double read_normal_stiffness(const Section& section, const Material& stone, double damping_ratio) {
   const auto positive = [&](const char* key) { return section.number(key, Range::positive()); };
-  switch (chosen(
-      section,
+  switch (required(
+      section, "the contact's stiffness",
       {{"normal_stiffness_n_per_m"}, {"hertz_load_n", "hertz_radius_m"}, {"contact_time_s", "contact_mass_kg"}})) {
     case 0:
       return positive("normal_stiffness_n_per_m");

@@ -41,10 +41,13 @@ TrackBed::TrackBed(const proto::CaseFile& file, const BedSource& source, std::fu
 
 void TrackBed::find_step(double duration) {
   const double moved = reserve * 2 * engine_->largest_speed(bed_.state) * duration;
-  const double near = share_of_rounding * bed_.model.contact.rounding;
-  step_bound_ = bound_->at(bed_.state, engine_->contacts(), near + moved);
+  step_bound_ = bound_->at(bed_.state, engine_->contacts(), touching_gap() + moved);
   largest_step_ = settings_.step_safety * step_bound_;
   if (settings_.largest_step > 0) largest_step_ = std::min(largest_step_, settings_.largest_step);
+}
+
+double TrackBed::touching_gap() const {
+  return share_of_rounding * bed_.model.contact.rounding;
 }
 
 void TrackBed::check_step(const proto::CaseFile& file) const {
@@ -99,8 +102,7 @@ std::vector<proto::Fact> TrackBed::facts() const {
   add("qdem.restitution", restitution_of(bed_.model.contact.damping_ratio));
   add("qdem.step_bound_s", step_bound_);
   add("qdem.largest_step_s", largest_step_);
-  add("qdem.damping_step_factor",
-      bound_->viscosity_factor(bed_.state, engine_->contacts(), near_gap(bed_.model.contact)));
+  add("qdem.damping_step_factor", bound_->viscosity_factor(bed_.state, engine_->contacts(), touching_gap()));
   add("qdem.threads", settings_.threads > 0 ? settings_.threads : omp_get_max_threads());
   return facts;
 }

@@ -65,6 +65,7 @@ class TrackBed {
 
  private:
   void check_step(const proto::CaseFile& file) const;
+  double touching_gap() const;  ///< for bodies that hardly move [m]
 
   QdemCase settings_;
   std::vector<proto::RailSeat> seats_;

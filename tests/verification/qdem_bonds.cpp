@@ -8,6 +8,7 @@
 #include "qdem_solver/engine/stress.hpp"
 #include "qdem_solver/model/bond_network.hpp"
 #include "tests/support/loaded_box.hpp"
+#include "tests/support/particle_forces.hpp"
 #include "tests/support/tolerance.hpp"
 
 using Eigen::Matrix3d;
@@ -45,17 +46,6 @@ std::vector<qdem::Model> alone_and_in_lanes(const qdem::Material& material) {
   return {tests::free_bodies(shape, material, 1), tests::free_bodies(shape, material, 3)};
 }
 
-/// Forces [N] on the particles of body 0, from accelerations the engine finds.
-std::vector<Vector3d> forces(const qdem::Model& model, qdem::State& state) {
-  qdem::Engine engine(model, {1});
-  engine.prepare(state);
-  std::vector<Vector3d> result;
-  for (int i = 0; i < model.shape(0).n_nodes(); ++i) {
-    result.push_back(model.node_mass(0, i) * qdem::State::gather(model, state.a, 0, i));
-  }
-  return result;
-}
-
 }  // namespace
 
 TEST(Bonds, OneForEveryEdgeOfTheTetrahedra) {
@@ -78,7 +68,7 @@ TEST(Bonds, ForcesHaveNoResultantAndNoMoment) {
     for (std::size_t i = 0; i < state.v.size(); ++i) state.v[i] = std::sin(1.7 * static_cast<double>(i));
     Vector3d sum = Vector3d::Zero(), moment = Vector3d::Zero();
     double size = 0.0;
-    const auto found = forces(model, state);
+    const auto found = tests::forces(model, state);
     for (int i = 0; i < model.shape(0).n_nodes(); ++i) {
       sum += found[i], size += found[i].norm();
       moment += (state.position(model, 0, i) - Vector3d(0.3, 0, 0)).cross(found[i]);
@@ -99,7 +89,7 @@ TEST(Bonds, RigidMotionGivesNoForce) {
     }
     // As for quadruples: the stress that round-off makes, on a face of the mesh.
     const double face = 0.02 * 0.02, round_off = (60e9 + 6e3 * spin.norm()) * 1e-15 * face * 100;
-    for (const Vector3d& force : forces(model, state)) EXPECT_LT(force.norm(), round_off);
+    for (const Vector3d& force : tests::forces(model, state)) EXPECT_LT(force.norm(), round_off);
   }
 }
 

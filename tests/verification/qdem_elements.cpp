@@ -7,6 +7,7 @@
 #include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/physics/quadruple_energy.hpp"
 #include "tests/support/box_mesh.hpp"
+#include "tests/support/particle_forces.hpp"
 #include "tests/support/tolerance.hpp"
 
 using Eigen::Matrix3d;
@@ -24,17 +25,6 @@ qdem::Material viscous_rock() {
 
 Matrix3d some_rotation() {
   return Eigen::AngleAxisd(1.1, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
-}
-
-/// Forces [N] on all particles, from accelerations the engine finds.
-std::vector<Vector3d> forces(const qdem::Model& model, qdem::State& state) {
-  qdem::Engine engine(model, {1});
-  engine.prepare(state);
-  std::vector<Vector3d> result;
-  for (int i = 0; i < model.shape(0).n_nodes(); ++i) {
-    result.push_back(model.node_mass(0, i) * qdem::State::gather(model, state.a, 0, i));
-  }
-  return result;
 }
 
 Vector3d momentum(const qdem::Model& model, const qdem::State& state) {
@@ -63,7 +53,7 @@ TEST(V1, RigidMotionGivesNoForce) {
   // Scale of a force: the stress that round-off of F makes, E eps, on a face of the mesh; viscosity likewise.
   const double face = 0.02 * 0.02;
   const double round_off = (60e9 + 7e3 * spin.norm()) * 1e-15 * face * 100;
-  for (const Vector3d& force : forces(model, state)) EXPECT_LT(force.norm(), round_off);
+  for (const Vector3d& force : tests::forces(model, state)) EXPECT_LT(force.norm(), round_off);
 }
 
 TEST(V1, FreeSpinKeepsMomenta) {
@@ -100,7 +90,7 @@ TEST(V2, PatchTestSixStrainStates) {
     const Matrix3d f = some_rotation() * (Matrix3d::Identity() + strain);
     qdem::State state = qdem::make_state(model, {{f, {0, 0, 0}}});
     const Matrix3d stress = qdem::cauchy_stress(f, Matrix3d::Zero(), material);
-    const auto force = forces(model, state);
+    const auto force = tests::forces(model, state);
     // Inner nodes are in balance; surface nodes feel minus the traction of the uniform stress.
     std::vector<Vector3d> traction(shape.n_nodes(), Vector3d::Zero());
     for (const auto& triangle : shape.triangles) {
@@ -131,7 +121,7 @@ TEST(V3, AreaFormEqualsGradientForm) {
   const Matrix3d stress = qdem::cauchy_stress(f, f_rate, {m.lambda(), m.mu(), m.lame_viscosity, m.shear_viscosity});
   std::array<Vector3d, 4> x;
   for (int i = 0; i < 4; ++i) x[i] = state.position(model, 0, i);
-  const auto force = forces(model, state);
+  const auto force = tests::forces(model, state);
   const double size = force[0].norm();
   Vector3d sum = Vector3d::Zero(), torque = Vector3d::Zero();
   for (int k = 0; k < 4; ++k) {
