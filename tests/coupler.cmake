@@ -39,3 +39,6 @@ house_test(solver_bad_input_test fault ALONE SOURCES fault/solver_bad_input.cpp
 foreach(test solver_kills_test solver_bad_input_test)
   add_dependencies(${test} coupler qdem_solver fem_solver oscillator_participant)
 endforeach()
+house_test(coupler_resume_test fault ALONE SOURCES fault/coupler_resume.cpp
+           LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 400)
+add_dependencies(coupler_resume_test coupler qdem_solver fem_solver oscillator_participant)

@@ -1,5 +1,6 @@
 # Tests of result.
 house_test(result_round_trip unit SOURCES unit/result_round_trip.cpp LIBRARIES proto::result_serial)
+house_test(result_states_test unit SOURCES unit/result_states.cpp LIBRARIES proto::result_serial)
 house_test(result_writer_killed fault SOURCES fault/result_writer_killed.cpp LIBRARIES proto::result_serial)
 house_test(result_disk_full fault SOURCES fault/result_disk_full.cpp LIBRARIES proto::result_serial)
 

@@ -14,6 +14,7 @@ namespace coupler {
 namespace {
 
 namespace field = proto::field;
+using Clock = std::chrono::steady_clock;
 constexpr double grace_s = 1.5;  // from SIGTERM to SIGKILL
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -85,6 +86,7 @@ CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::
       qdem_(supervisor_, "qdem"),
       fem_(supervisor_, "fem"),
       audit_(cell_counts(input.seats), input.coupling.window_s),
+      slots_(folder.path()),
       begin_(std::chrono::steady_clock::now()) {
   supervisor_.on_long_set_up([](const std::string& text) { fmt::print(stderr, "{}\n", text); });
   for (const auto& seat : input.seats) summary_.seats.push_back({seat.name, 0.0, 0.0, 0.0});
@@ -121,6 +123,7 @@ void CoupledRun::set_up() {
     log_.info("{} connected, protocol {}.{}, build {}", name, hello.protocol_major, hello.protocol_minor,
               hello.build_id);
     check_capabilities(name, hello.capabilities, input_.coupling);
+    can_save_ = can_save_ && hello.capabilities.save_restore;
   }
   supervisor_.set_stage("set-up");
   const auto qdem = supervisor_.await<proto::Interface>("qdem", 0, true);
@@ -183,7 +186,7 @@ void CoupledRun::initialise() {
   log_.info("at rest after {} windows: {}", summary_.initialise_windows, watch.text());
 }
 
-void CoupledRun::take_initial_values() {
+void CoupledRun::begin() {
   supervisor_.set_stage("start");
   const auto fem_ticket = supervisor_.send("fem", proto::Start{});
   const auto qdem_ticket = supervisor_.send("qdem", proto::Start{});
@@ -196,41 +199,57 @@ void CoupledRun::take_initial_values() {
   scheme_.emplace(input_.coupling.scheme, input_.coupling.window_s, sub_cycles_for(input_.coupling.window_s, step),
                   laws_);
   scheme_->start(initial);
+  record_.emplace(folder_.file("coupling.h5"), input_.seats, input_.coupling.window_s, record_attributes());
+  record_->add_initial(initial);
+}
+
+proto::Attributes CoupledRun::record_attributes() const {
   auto attributes = proto::provenance("coupler", input_.file.name(), input_.file.hash(), input_.file.text());
   attributes.emplace_back("scheme", proto::name_of(input_.coupling.scheme));
   attributes.emplace_back("window_s", input_.coupling.window_s);
   for (const auto& fact : summary_.facts)
     attributes.emplace_back(fact.key, fact.number ? proto::Attribute(*fact.number) : proto::Attribute(fact.text));
-  record_.emplace(folder_.file("coupling.h5"), input_.seats, input_.coupling.window_s, attributes);
-  record_->add_initial(initial);
+  return attributes;
 }
 
 void CoupledRun::add_window(const WindowRecord& record) {
   record_->add(record, audit_.add(record));
+  hash_.add(record);
   update_figures(summary_.seats, record, input_.seats, input_.coupling.window_s);
-  summary_.n_windows = record.window + 1;
   summary_.sub_cycles = std::max(summary_.sub_cycles, record.sub_cycles);
+  update_totals(record.window + 1);
+}
+
+void CoupledRun::update_totals(std::int64_t n_windows) {
+  summary_.n_windows = n_windows;
+  summary_.interface_hash = hash_.value();
   summary_.energy_defect_relative = audit_.energy_defect_relative();
   summary_.momentum_defect_relative = audit_.momentum_defect_relative();
 }
 
-bool CoupledRun::march() {
-  take_initial_values();
+MarchEnd CoupledRun::march(std::optional<Clock::time_point> deadline) {
   supervisor_.set_interruptible(false);
   const auto n_windows = static_cast<std::int64_t>(input_.coupling.n_windows);
-  log_.info("marching through {} windows", n_windows);
+  log_.info("marching through windows {} to {}", next_window_, n_windows - 1);
+  last_save_ = Clock::now();
   Progress progress("marching", n_windows, input_.coupling.window_s);
-  for (std::int64_t n = 0; n < n_windows; ++n) {
-    if (supervisor_.stop_requested()) return false;
+  for (auto n = next_window_; n < n_windows; n = next_window_) {
+    if (const auto end = early_end(deadline); end != MarchEnd::complete) {
+      if (can_save_ && n > 0) save(n - 1);
+      return end;
+    }
     supervisor_.set_stage(fmt::format("window {}", n));
     const auto record = scheme_->advance(proto::Phase::march, n, {fem_, qdem_});
     account(record);
     add_window(record);
     fem_.commit({n});
     qdem_.commit({n});
+    next_window_ = n + 1;
+    if (save_is_due(n)) save(n);
     progress.update(n + 1);
   }
-  return true;
+  if (can_save_ && saves_at_all()) save(n_windows - 1);  // a longer run can go on from here
+  return MarchEnd::complete;
 }
 
 void CoupledRun::finish() {

@@ -3,6 +3,7 @@
 
 #include <spdlog/logger.h>
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,7 +11,9 @@
 
 #include "coupler/app/case_input.hpp"
 #include "coupler/launch/children.hpp"
+#include "coupler/record/checkpoint.hpp"
 #include "coupler/record/coupling_record.hpp"
+#include "coupler/record/interface_hash.hpp"
 #include "coupler/record/run_folder.hpp"
 #include "coupler/record/socket_folder.hpp"
 #include "coupler/record/summary.hpp"
@@ -20,6 +23,8 @@
 #include "coupler/supervise/supervisor.hpp"
 
 namespace coupler {
+
+enum class MarchEnd { complete, stopped_by_user, out_of_time };
 
 /// The steps of a run, to be called in the order in which they are declared. `summary` is filled as the run goes and
 /// is valid at any time, also after a throw. Every step throws proto::Error or Interrupted.
@@ -35,8 +40,14 @@ class CoupledRun {
   void set_up();
   /// Coupled windows until the seat forces rest; nothing when the case has no initialise phase.
   void initialise();
-  /// Initial values, then the windows of the case. Returns false when the user stopped it between two windows.
-  bool march();
+  /// Ends the initialise phase and takes the initial values.
+  void begin();
+  /// In place of initialise() and begin(): all three go on from what they saved. Throws proto::Error (bad_data, config)
+  /// when the set does not fit the case.
+  void resume(const Checkpoint& set);
+  /// The windows that are left. Stops early, with a checkpoint if the participants can save, between two windows: at
+  /// the user's signal, or before `deadline`.
+  MarchEnd march(std::optional<std::chrono::steady_clock::time_point> deadline);
   /// Closes participants and record.
   void finish();
 
@@ -46,13 +57,21 @@ class CoupledRun {
   int stop_signal() const { return children_.stop_signal(); }
   /// What it is doing or did last: "set-up", "window 37".
   const std::string& stage() const { return supervisor_.stage(); }
+  /// Whether this run has saved a set of its own.
+  bool has_checkpoint() const { return checkpointed_window_ >= 0; }
 
  private:
   proto::Configured configure(const std::string& name, const proto::Configure& request);
-  void take_initial_values();
+  proto::Attributes record_attributes() const;
+  void save(std::int64_t window);
+  bool saves_at_all() const;
+  bool save_is_due(std::int64_t window) const;
+  void exchange(proto::StateArchive& archive);
   void add_window(const WindowRecord& record);
   void account(const WindowRecord& record);
+  void update_totals(std::int64_t n_windows);
   void update_wall_time();
+  MarchEnd early_end(std::optional<std::chrono::steady_clock::time_point> deadline) const;
 
   const CaseInput& input_;
   const RunFolder& folder_;
@@ -66,8 +85,14 @@ class CoupledRun {
   Audit audit_;
   std::vector<proto::PadLaw> laws_;
   std::optional<double> configured_step_s_, initialise_step_s_;  ///< largest of the explicit side [s]
-  std::optional<WindowScheme> scheme_;       ///< of the march
+  std::optional<WindowScheme> scheme_;                           ///< of the march
   std::optional<CouplingRecord> record_;
+  InterfaceHash hash_;
+  CheckpointSlots slots_;
+  bool can_save_ = true;  ///< both participants offer it
+  std::int64_t next_window_ = 0;
+  std::int64_t checkpointed_window_ = -1;  ///< of the last set that this run saved
+  std::chrono::steady_clock::time_point last_save_;
   std::chrono::steady_clock::time_point begin_;
   double waited_in_start_up_s_ = 0.0;
 };

@@ -39,19 +39,35 @@ int command_line(int argc, char** argv) {
         ->check(CLI::Range(1, 4096));
     return command;
   };
-  auto* run = add_runner("run", "run a case");
+  auto* run = add_runner("run", "run a case, or go on with an interrupted run");
+  auto* resume =
+      run->add_option("--resume", options.resume, "folder of an earlier run: go on from its newest checkpoint");
+  run->get_option("CASE")->required(false);
+  run->get_option("--out")->excludes(resume);
+  run->add_option("--allow", options.allowed, "what may differ from the run that is resumed: case, version")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"case", "version"}))
+      ->needs(resume);
+  run->add_option("--wall-limit", options.wall_limit_s,
+                  "seconds of wall time after which to save a checkpoint and stop")
+      ->check(CLI::PositiveNumber);
+  run->add_option("--restart", options.n_restarts, "how often to go on by itself when a participant is lost")
+      ->check(CLI::Range(0, 1000));
   auto* converge = add_runner("converge", "run a case with H, H/2, H/4, ... and report the observed orders");
   converge->add_option("--levels", n_levels, "number of runs")->check(CLI::Range(3, 12))->capture_default_str();
   auto* check = app.add_subcommand("check", "validate a case without running it");
   check->add_option("CASE", options.case_path, "case file (TOML)")->required();
   try {
     app.parse(argc, argv);
+    if (run->parsed() && options.case_path.empty() && options.resume.empty())
+      throw CLI::RequiredError("CASE or --resume");
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);
     return code == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
   }
   if (converge->parsed()) return coupler::converge_case(options, n_levels);
-  return run->parsed() ? coupler::run_case(options) : coupler::check_case(options.case_path);
+  if (check->parsed()) return coupler::check_case(options.case_path);
+  return options.resume.empty() ? coupler::run_case(options) : coupler::resume_run(options);
 }
 
 }  // namespace

@@ -1,20 +1,30 @@
 // What the command line asks for.
 #pragma once
 
+#include <set>
 #include <string>
 
 namespace coupler {
 
 struct RunOptions {
   std::string case_path;
-  std::string out;        ///< empty: runs/<case>-<time>
-  std::string scheme;     ///< a name, or empty: as the case says
-  double window_s = 0.0;  ///< instead of the case's; 0: as the case says [s]
-  int n_threads = 0;      ///< of each participant; 0: as the environment says
+  std::string out;                ///< empty: runs/<case>-<time>
+  std::string scheme;             ///< a name, or empty: as the case says
+  double window_s = 0.0;          ///< instead of the case's; 0: as the case says [s]
+  int n_threads = 0;              ///< of each participant; 0: as the environment says
+  std::string resume;             ///< folder of an earlier run to go on in; empty: a new run
+  std::set<std::string> allowed;  ///< of a resumed run: may differ ("case", "version")
+  double wall_limit_s = 0.0;      ///< stop in time with a checkpoint; 0: no limit [s]
+  int n_restarts = 0;             ///< how often a run whose participant was lost goes on by itself
 };
 
-/// Exit code of a completed, or cleanly interrupted, run. Throws proto::Error when it fails.
+/// Exit code of a completed, or cleanly interrupted, run: 0, 128 + signal, 124 when the wall limit was reached. Throws
+/// proto::Error when it fails.
 int run_case(const RunOptions& options);
+
+/// Goes on with the run in `options.resume` from its newest checkpoint; otherwise as run_case(). `options.case_path`
+/// may be empty: the case is then read where the run found it.
+int resume_run(const RunOptions& options);
 
 /// Runs the case with its window H, then H/2, H/4, ... into folders of `options.out`, prints the observed order of
 /// every seat's motion and force, and writes convergence.csv. Exit code as run_case(); throws proto::Error (numerics)

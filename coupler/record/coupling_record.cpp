@@ -51,37 +51,51 @@ CouplingRecord::CouplingRecord(const std::string& path, const std::vector<proto:
       momentum_defect_sum_(proto::n_interface_values(seats), 0.0),
       file_(proto::TimeSeriesFile::create(path, columns(seats), attributes)) {}
 
+CouplingRecord::CouplingRecord(const std::string& path, const std::vector<proto::RailSeat>& seats, double window_s,
+                               const proto::Attributes& attributes, proto::StateArchive& saved)
+    : seats_(seats), window_s_(window_s) {
+  exchange(saved);
+  saved.expect_length("record/momentum_defect_sum", momentum_defect_sum_.size(), proto::n_interface_values(seats));
+  file_ = proto::TimeSeriesFile::resume(path, n_rows_, columns(seats), attributes);
+}
+
+void CouplingRecord::exchange(proto::StateArchive& archive) {
+  archive("record/rows", n_rows_);
+  archive("record/momentum_defect_sum", momentum_defect_sum_);
+}
+
 void CouplingRecord::put_seats(const std::string& name, const std::vector<double>& values) {
   std::size_t first = 0;
   for (const auto& seat : seats_) {
     const std::size_t n = 3 * static_cast<std::size_t>(seat.n_cells());
-    file_.put("seats/" + seat.name + "/" + name, proto::Span<const double>(values.data() + first, n));
+    file_->put("seats/" + seat.name + "/" + name, proto::Span<const double>(values.data() + first, n));
     first += n;
   }
 }
 
 void CouplingRecord::add_initial(const InterfaceState& initial) {
   const std::vector<double> zero(momentum_defect_sum_.size(), 0.0);
-  file_.put("window", -1.0);
+  file_->put("window", -1.0);
   for (const char* name : {"time", "energy_defect_sum", "sub_cycles", "qdem_compute", "fem_compute"})
-    file_.put(name, 0.0);
+    file_->put(name, 0.0);
   for (const auto& column : seat_columns) put_seats(column.name, zero);
   put_seats("rail_displacement", initial.rail_displacement);
   put_seats("rail_velocity", initial.rail_velocity);
   put_seats("sleeper_displacement", initial.sleeper_displacement);
   put_seats("sleeper_velocity", initial.sleeper_velocity);
-  file_.end_row();
-  file_.commit();  // from here on the file can be opened whatever happens
+  file_->end_row();
+  ++n_rows_;
+  file_->commit();  // from here on the file can be opened whatever happens
 }
 
 void CouplingRecord::add(const WindowRecord& record, const WindowAudit& audit) {
   for (std::size_t i = 0; i < momentum_defect_sum_.size(); ++i) momentum_defect_sum_[i] += audit.momentum_defect[i];
-  file_.put("window", static_cast<double>(record.window));
-  file_.put("time", static_cast<double>(record.window + 1) * window_s_);
-  file_.put("energy_defect_sum", audit.energy_defect_sum);
-  file_.put("sub_cycles", static_cast<double>(record.sub_cycles));
-  file_.put("qdem_compute", record.explicit_compute_s);
-  file_.put("fem_compute", record.implicit_compute_s);
+  file_->put("window", static_cast<double>(record.window));
+  file_->put("time", static_cast<double>(record.window + 1) * window_s_);
+  file_->put("energy_defect_sum", audit.energy_defect_sum);
+  file_->put("sub_cycles", static_cast<double>(record.sub_cycles));
+  file_->put("qdem_compute", record.explicit_compute_s);
+  file_->put("fem_compute", record.implicit_compute_s);
   put_seats("rail_displacement", record.rail_displacement);
   put_seats("rail_velocity", record.rail_velocity);
   put_seats("sleeper_displacement", record.sleeper_displacement);
@@ -94,11 +108,12 @@ void CouplingRecord::add(const WindowRecord& record, const WindowAudit& audit) {
   put_seats("energy_defect", audit.energy_defect);
   put_seats("momentum_defect", audit.momentum_defect);
   put_seats("momentum_defect_sum", momentum_defect_sum_);
-  file_.end_row();
+  file_->end_row();
+  ++n_rows_;
 }
 
 void CouplingRecord::close() {
-  file_.close();
+  file_->close();
 }
 
 }  // namespace coupler

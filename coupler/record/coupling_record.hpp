@@ -1,6 +1,7 @@
 // coupling.h5: everything that crossed the interface, window by window, and its audit.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,15 @@ class CouplingRecord {
   CouplingRecord(const std::string& path, const std::vector<proto::RailSeat>& seats, double window_s,
                  const proto::Attributes& attributes);
 
+  /// Goes on with the file that an earlier process made with the same arguments, from what its exchange() saved.
+  CouplingRecord(const std::string& path, const std::vector<proto::RailSeat>& seats, double window_s,
+                 const proto::Attributes& attributes, proto::StateArchive& saved);
+
+  /// The number of rows and the running sums.
+  void exchange(proto::StateArchive& archive);
+  /// What was added is safe against a loss of power.
+  void synchronise() { file_->synchronise(); }
+
   /// All functions throw proto::Error (io_error) once a write has failed.
   void add_initial(const InterfaceState& initial);
   void add(const WindowRecord& record, const WindowAudit& audit);
@@ -30,7 +40,8 @@ class CouplingRecord {
   std::vector<proto::RailSeat> seats_;
   double window_s_;
   std::vector<double> momentum_defect_sum_;
-  proto::TimeSeriesFile file_;
+  std::uint64_t n_rows_ = 0;
+  std::optional<proto::TimeSeriesFile> file_;
 };
 
 }  // namespace coupler

@@ -45,4 +45,13 @@ void update_figures(std::vector<SeatFigures>& figures, const WindowRecord& recor
   }
 }
 
+void exchange(proto::StateArchive& archive, std::vector<SeatFigures>& figures) {
+  for (auto& seat : figures) {
+    const std::string name = "figures/" + seat.name + "/";
+    archive(name + "max_force", seat.max_force_n);
+    archive(name + "max_rail_displacement", seat.max_rail_displacement_m);
+    archive(name + "max_sleeper_displacement", seat.max_sleeper_displacement_m);
+  }
+}
+
 }  // namespace coupler

@@ -6,6 +6,7 @@
 
 #include "coupler/scheme/window_record.hpp"
 #include "proto/case/rail_seat.hpp"
+#include "proto/result/state_archive.hpp"
 
 namespace coupler {
 
@@ -30,6 +31,9 @@ struct WallTime {
 /// Normal force of every seat in a window: the impulse of the pad force on the sleeper over H, summed over the cells
 /// [N].
 std::vector<double> seat_forces(const WindowRecord& record, const std::vector<proto::RailSeat>& seats, double window_s);
+
+/// The figures of every seat, on their way into a checkpoint and back.
+void exchange(proto::StateArchive& archive, std::vector<SeatFigures>& figures);
 
 /// Takes one more window into the figures of every seat.
 void update_figures(std::vector<SeatFigures>& figures, const WindowRecord& record,

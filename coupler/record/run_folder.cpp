@@ -39,21 +39,33 @@ RunFolder::RunFolder(const std::string& out, const std::string& case_name)
   std::error_code error;
   fs::create_directories(path_, error);
   if (error) fail("cannot create the output folder (" + error.message() + ")", path_);
-  // The lock is on the folder itself: it leaves no file behind and ends with the process, however that ends.
-  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) fail(std::string("cannot open the output folder (") + strerror(errno) + ")", path_);
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    close(lock_);
-    fail("another run is writing to this folder", path_, "give another --out");
-  }
+  lock();
   if (!fs::is_empty(path_, error) || error) {
     close(lock_);
     fail("the output folder is not empty", path_, "give another --out, or remove what is in it");
   }
 }
 
-RunFolder::~RunFolder() {
+RunFolder RunFolder::reopen(const std::string& path) {
+  RunFolder folder;
+  folder.path_ = fs::absolute(path).lexically_normal().string();
+  if (!fs::is_directory(folder.path_))
+    throw proto::Error(proto::ExitCode::missing_input, "there is no folder of a run", folder.path_);
+  folder.lock();
+  return folder;
+}
+
+void RunFolder::lock() {
+  // The lock is on the folder itself: it leaves no file behind and ends with the process, however that ends.
+  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) fail(std::string("cannot open the output folder (") + strerror(errno) + ")", path_);
+  if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
   close(lock_);
+  fail("another run is writing to this folder", path_, "give another --out");
+}
+
+RunFolder::~RunFolder() {
+  if (lock_ >= 0) close(lock_);
 }
 
 }  // namespace coupler

@@ -1,5 +1,7 @@
 #include "coupler/record/summary.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -63,7 +65,10 @@ std::string summary_text(const Summary& s) {
                         {"qdem_residual", s.rest.qdem_residual},
                         {"fem_residual", s.rest.fem_residual}};
   root["interface"] = {{"energy_defect_relative", s.energy_defect_relative},
-                       {"momentum_defect_relative", s.momentum_defect_relative}};
+                       {"momentum_defect_relative", s.momentum_defect_relative},
+                       {"hash", fmt::format("{:016x}", s.interface_hash)}};
+  if (s.checkpoint_window >= 0) root["checkpoint"] = {{"window", s.checkpoint_window}};
+  root["resumed"] = s.resumed;
   root["wall_s"] = {{"total", s.wall.total}, {"start_up", s.wall.start_up}, {"qdem", s.wall.qdem},
                     {"fem", s.wall.fem},     {"coupler", s.wall.coupler},   {"waiting", s.wall.waiting}};
   root["rail_seats"] = seat_list(s.seats);

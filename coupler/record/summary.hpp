@@ -26,7 +26,10 @@ struct Summary {
   double window_s = 0.0;
   std::uint32_t sub_cycles = 0;  ///< most in one window
   int initialise_windows = 0;
-  RestFigures rest;  ///< at its end
+  RestFigures rest;                     ///< at its end
+  std::uint64_t interface_hash = 0;     ///< InterfaceHash of all windows
+  std::int64_t checkpoint_window = -1;  ///< of the newest set; -1: there is none
+  int resumed = 0;                      ///< how often the run went on from a checkpoint
   double energy_defect_relative = 0.0, momentum_defect_relative = 0.0;
   WallTime wall;
   std::vector<SeatFigures> seats;

@@ -50,6 +50,19 @@ void Audit::add_seat(Seat& seat, std::size_t first, std::size_t n_cells, const W
   largest_momentum_defect_ = std::max(largest_momentum_defect_, norm(seat.momentum_defect));
 }
 
+void Audit::exchange(proto::StateArchive& archive) {
+  archive("audit/energy_defect", energy_defect_);
+  archive("audit/largest_energy_defect", largest_energy_defect_);
+  archive("audit/largest_momentum_defect", largest_momentum_defect_);
+  for (std::size_t s = 0; s < seats_.size(); ++s) {
+    const std::string seat = "audit/seat_" + std::to_string(s) + "/";
+    archive(seat + "work", seats_[s].work);
+    archive(seat + "impulse", seats_[s].impulse);
+    for (int axis = 0; axis < 3; ++axis)
+      archive(seat + "momentum_defect_" + std::to_string(axis), seats_[s].momentum_defect[axis]);
+  }
+}
+
 double Audit::energy_defect_relative() const {
   double work = 0.0;
   for (const auto& seat : seats_) work += seat.work;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupler/scheme/window_record.hpp"
+#include "proto/result/state_archive.hpp"
 
 namespace coupler {
 
@@ -26,6 +27,9 @@ class Audit {
 
   /// Defects of one more window.
   WindowAudit add(const WindowRecord& record);
+
+  /// The sums.
+  void exchange(proto::StateArchive& archive);
 
   /// max over n of |sum of D up to window n|, over the sum of |W_rail| of all windows and seats; 0 before any work.
   double energy_defect_relative() const;

@@ -176,6 +176,24 @@ void WindowScheme::update(const WindowRecord& record) {
   rail_known_ = true;
 }
 
+void WindowScheme::exchange(proto::StateArchive& archive) {
+  archive.expect_same("scheme/name", "the scheme", proto::name_of(scheme_));
+  const auto list = [&](const char* name, std::vector<double>& values) {
+    archive(std::string("scheme/") + name, values);
+    archive.expect_length(name, values.size(), laws_.size());
+  };
+  list("rail_displacement", state_.rail_displacement);
+  list("rail_velocity", state_.rail_velocity);
+  list("sleeper_displacement", state_.sleeper_displacement);
+  list("sleeper_velocity", state_.sleeper_velocity);
+  list("sleeper_acceleration", sleeper_acceleration_);
+  list("force_carry", force_carry_);
+  list("force_mean", force_mean_);
+  list("force_mean_before", force_mean_before_);
+  archive("scheme/sub_cycles", sub_cycles_);
+  archive("scheme/rail_known", rail_known_);
+}
+
 std::uint32_t sub_cycles_for(double window_s, std::optional<double> largest_step_s) {
   if (!largest_step_s) return 1;
   const double limit = *largest_step_s;

@@ -12,6 +12,7 @@
 #include "coupler/scheme/window_record.hpp"
 #include "proto/case/coupling.hpp"
 #include "proto/pad/pad_law.hpp"
+#include "proto/result/state_archive.hpp"
 
 namespace coupler {
 
@@ -37,6 +38,9 @@ class WindowScheme {
   /// Advances both sides through one window and updates what the next one needs; commits nothing.
   /// Throws proto::Error (protocol) naming side and field when a value is missing or has the wrong length.
   WindowRecord advance(proto::Phase phase, std::int64_t window, Sides sides);
+
+  /// All that the next window needs of the earlier ones.
+  void exchange(proto::StateArchive& archive);
 
  private:
   proto::Advance implicit_request(proto::Phase phase, std::int64_t window) const;

@@ -38,11 +38,9 @@ std::vector<double> at_nodes(const std::vector<int>& nodes, const Eigen::VectorX
 
 }  // namespace
 
-FemRecord::FemRecord(const std::string& directory, const proto::CaseFile& file, const RailSystem& system,
-                     const Material& material, double window, std::int64_t interval_windows)
-    : system_(system), material_(material), window_s_(window), interval_windows_(interval_windows) {
+proto::FieldSeriesOptions FemRecord::options(const proto::CaseFile& file) {
   proto::FieldSeriesOptions options;
-  options.mesh = corner_mesh(*system.mesh, corner_nodes_);
+  options.mesh = corner_mesh(*system_.mesh, corner_nodes_);
   options.fields = {{"displacement", "m", "of the rail from its unloaded, weightless state", Location::point, 3},
                     {"velocity", "m/s", "of the rail", Location::point, 3},
                     {"von_mises_stress", "Pa", "von Mises stress at the centre of the element", Location::cell, 1}};
@@ -52,7 +50,27 @@ FemRecord::FemRecord(const std::string& directory, const proto::CaseFile& file, 
                        {"wheel/displacement", "m", "upwards, from touching the undeformed rail, end of the window", {}},
                        {"wheel/velocity", "m/s", "upwards, end of the window", {}}};
   options.attributes = proto::provenance("fem_solver", file.name(), file.hash(), file.text());
-  file_ = std::make_unique<proto::FieldSeriesFile>(proto::FieldSeriesFile::create(directory + "/fem.h5", options));
+  return options;
+}
+
+FemRecord::FemRecord(const std::string& directory, const proto::CaseFile& file, const RailSystem& system,
+                     const Material& material, double window, std::int64_t interval_windows)
+    : system_(system), material_(material), window_s_(window), interval_windows_(interval_windows) {
+  file_ =
+      std::make_unique<proto::FieldSeriesFile>(proto::FieldSeriesFile::create(directory + "/fem.h5", options(file)));
+}
+
+FemRecord::FemRecord(const std::string& directory, const proto::CaseFile& file, const RailSystem& system,
+                     const Material& material, double window, std::int64_t interval_windows, proto::StateArchive& saved)
+    : system_(system), material_(material), window_s_(window), interval_windows_(interval_windows) {
+  exchange(saved);
+  file_ = std::make_unique<proto::FieldSeriesFile>(
+      proto::FieldSeriesFile::resume(directory + "/fem.h5", n_steps_, n_history_rows_, options(file)));
+}
+
+void FemRecord::exchange(proto::StateArchive& archive) {
+  archive("record/steps", n_steps_);
+  archive("record/rows", n_history_rows_);
 }
 
 void FemRecord::fields(const WheelTrack& track) {
@@ -62,6 +80,7 @@ void FemRecord::fields(const WheelTrack& track) {
   file_->put("velocity", at_nodes(corner_nodes_, state.track.velocity));
   file_->put("von_mises_stress", system_.mesh->von_mises(state.track.displacement, material_));
   file_->end_step();
+  ++n_steps_;
 }
 
 void FemRecord::begin(const WheelTrack& track) {
@@ -76,11 +95,25 @@ void FemRecord::window(const WheelTrack& track) {
   file_->put_history("wheel/displacement", state.wheel_displacement);
   file_->put_history("wheel/velocity", state.wheel_velocity);
   file_->end_history_row();
+  ++n_history_rows_;
   if (interval_windows_ > 0 && state.windows % interval_windows_ == 0) fields(track);
 }
 
 void FemRecord::close() {
   file_->close();
+}
+
+void exchange(proto::StateArchive& archive, RunState& state) {
+  archive("track/displacement", state.track.displacement);
+  archive("track/velocity", state.track.velocity);
+  archive("track/elastic", state.track.elastic);
+  archive("wheel/displacement", state.wheel_displacement);
+  archive("wheel/velocity", state.wheel_velocity);
+  archive("wheel/position", state.wheel_position);
+  archive("windows", state.windows);
+  archive("interface/force", state.last.force);
+  archive("interface/contact", state.last.contact);
+  archive("interface/iterations", state.last.iterations);
 }
 
 std::int64_t windows_per_output(double output_interval, double window) {

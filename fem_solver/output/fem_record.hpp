@@ -8,6 +8,7 @@
 #include "fem_solver/time/wheel_track.hpp"
 #include "proto/case/case_file.hpp"
 #include "proto/result/field_series.hpp"
+#include "proto/result/state_archive.hpp"
 
 namespace fem {
 
@@ -19,6 +20,14 @@ class FemRecord {
   /// `interval_windows`: a field step each so many windows, 0 for none. Throws proto::Error (cannot_create).
   FemRecord(const std::string& directory, const proto::CaseFile& file, const RailSystem& system,
             const Material& material, double window, std::int64_t interval_windows);
+  /// Goes on with the file that an earlier process made with the same arguments, from what its exchange() saved.
+  FemRecord(const std::string& directory, const proto::CaseFile& file, const RailSystem& system,
+            const Material& material, double window, std::int64_t interval_windows, proto::StateArchive& saved);
+
+  /// How far the file has come.
+  void exchange(proto::StateArchive& archive);
+  /// What was written is safe against a loss of power.
+  void synchronise() { file_->synchronise(); }
 
   /// The state at time 0 (fields only).
   void begin(const WheelTrack& track);
@@ -28,14 +37,19 @@ class FemRecord {
 
  private:
   void fields(const WheelTrack& track);
+  proto::FieldSeriesOptions options(const proto::CaseFile& file);
 
   const RailSystem& system_;
   Material material_;
   double window_s_;
   std::int64_t interval_windows_;
   std::vector<int> corner_nodes_;  // node of the mesh for each point of the file
+  std::uint64_t n_steps_ = 0, n_history_rows_ = 0;
   std::unique_ptr<proto::FieldSeriesFile> file_;
 };
+
+/// All of `state`.
+void exchange(proto::StateArchive& archive, RunState& state);
 
 /// Whole number of windows of an output interval; 0 for 0. Throws proto::Error (config) for a broken number.
 std::int64_t windows_per_output(double output_interval, double window);

@@ -1,8 +1,11 @@
 #include "fem_solver/participant/fem_participant.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "proto/result/provenance.hpp"
+#include "proto/result/state_file.hpp"
 
 namespace fem {
 namespace {
@@ -57,7 +60,7 @@ std::string FemParticipant::build_id() const {
 
 proto::Capabilities FemParticipant::capabilities() const {
   proto::Capabilities can;
-  can.robin = can.rollback = can.initialise = true;
+  can.robin = can.rollback = can.initialise = can.save_restore = true;
   return can;
 }
 
@@ -93,9 +96,8 @@ proto::Configured FemParticipant::configure(const proto::Configure& request) {
   track_ = std::make_unique<WheelTrack>(system_, input_.fem, input_.wheel, request.window_s, std::move(laws));
   bump();
   track_->band().at(track_->position_at(static_cast<double>(request.windows)));
-  record_ =
-      std::make_unique<FemRecord>(request.output_directory, input_.file, system_, input_.fem.material, request.window_s,
-                                  windows_per_output(input_.coupling.output_interval_s, request.window_s));
+  output_directory_ = request.output_directory;
+  window_s_ = request.window_s;
   smallest_contact_ = largest_contact_ = input_.wheel.static_load;
   committed_ = track_->state();
   auto facts = model_facts(system_, input_.fem);
@@ -157,10 +159,17 @@ void FemParticipant::rollback(const proto::Rollback&) {
   track_->set_state(committed_);
 }
 
+template <class... Saved>
+void FemParticipant::open_record(Saved&... saved) {
+  record_ = std::make_unique<FemRecord>(output_directory_, input_.file, system_, input_.fem.material, window_s_,
+                                        windows_per_output(input_.coupling.output_interval_s, window_s_), saved...);
+}
+
 proto::FieldSet FemParticipant::start() {
   track_->start();
   committed_ = track_->state();
   if (force_used_.size() == 0) force_used_ = Eigen::VectorXd::Zero(track_->cell_displacement().size());
+  open_record();
   record_->begin(*track_);
   proto::FieldSet data = motion();
   data.set(field::force_robin, values(force_used_));
@@ -168,9 +177,40 @@ proto::FieldSet FemParticipant::start() {
   return data;
 }
 
+void FemParticipant::exchange(proto::StateArchive& archive) {
+  archive.expect_same("model", "the rail", std::to_string(system_.n_dofs()) + " unknowns");
+  fem::exchange(archive, committed_);
+  archive("force_used", force_used_);
+  archive("largest_contact", largest_contact_);
+  archive("smallest_contact", smallest_contact_);
+  archive("lowest_wheel", lowest_wheel_);
+}
+
+std::uint64_t FemParticipant::save(const proto::Save& request) {
+  proto::StateWriter archive;
+  exchange(archive);
+  record_->synchronise();
+  record_->exchange(archive);
+  return archive.write(request.path);
+}
+
+void FemParticipant::restore(const proto::Restore& request) {
+  proto::StateReader archive(request.path, request.hash);
+  track_->start();
+  exchange(archive);
+  track_->set_state(committed_);
+  phase_ = proto::Phase::march;
+  open_record(archive);
+}
+
 std::vector<proto::Fact> FemParticipant::finish() {
-  record_->close();
-  return {fact("fem.largest_contact_force_n", largest_contact_),
+  proto::StateWriter end;
+  if (record_) {
+    exchange(end);
+    record_->close();
+  }
+  return {{"fem.end.state_hash", std::nullopt, fmt::format("{:016x}", end.hash())},
+          fact("fem.largest_contact_force_n", largest_contact_),
           fact("fem.smallest_contact_force_n", smallest_contact_),
           fact("fem.lowest_wheel_displacement_m", lowest_wheel_)};
 }

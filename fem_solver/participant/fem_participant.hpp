@@ -30,7 +30,7 @@ FemCase read_fem_case(const std::string& path);
 /// Figures of rail and model for the summary.
 std::vector<proto::Fact> model_facts(const RailSystem& system, const FemSettings& settings);
 
-/// Adapter from the protocol to WheelTrack. Rolls back to the last commit; does not save.
+/// Adapter from the protocol to WheelTrack. Rolls back to the last commit.
 class FemParticipant : public proto::Participant {
  public:
   FemParticipant(FemCase input, std::string name);
@@ -47,12 +47,18 @@ class FemParticipant : public proto::Participant {
   void commit(const proto::Commit& request) override;
   void rollback(const proto::Rollback& request) override;
   proto::FieldSet start() override;
+  std::uint64_t save(const proto::Save& request) override;
+  void restore(const proto::Restore& request) override;
   std::vector<proto::Fact> finish() override;
 
  private:
   void bump() const;
   WindowInput window_input(const proto::FieldSet& data) const;
   proto::FieldSet motion() const;
+  template <class... Saved>
+  void open_record(Saved&... saved);
+  /// Everything but the file's own counts.
+  void exchange(proto::StateArchive& archive);
 
   FemCase input_;
   std::string name_;
@@ -61,6 +67,8 @@ class FemParticipant : public proto::Participant {
   proto::LoadMode mode_ = proto::LoadMode::robin;
   std::unique_ptr<WheelTrack> track_;
   std::unique_ptr<FemRecord> record_;
+  std::string output_directory_;
+  double window_s_ = 0.0;
   RunState committed_;
   Eigen::VectorXd force_used_;  // of the last window, per interface value [N]
   proto::Phase phase_ = proto::Phase::initialise;

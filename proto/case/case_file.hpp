@@ -98,6 +98,10 @@ class CaseFile {
   std::string name() const;         ///< folder name of `case.toml`, else the file's stem
   std::uint64_t hash() const;       ///< XXH3-64 of the bytes
 
+  /// One line for every key whose value differs or that only one of the files has: "coupling.window_s: 5e-05 ->
+  /// 0.0001", "bed.seed: 1 -> (none)". In order of the keys. Comments, order and layout do not count.
+  std::vector<std::string> differences_to(const CaseFile& later) const;
+
   /// Throws for a top-level section that is in none of `known`, naming the nearest.
   void refuse_unknown_sections(const std::vector<std::string>& known) const;
 

@@ -47,6 +47,13 @@ Initialise read_initialise(const Section& section, double window_s) {
   return result;
 }
 
+CheckpointTimes read_checkpoint(const Section& section) {
+  CheckpointTimes times;
+  times.interval_windows = section.integer_or("interval_windows", 0, Range::between(0, most_windows));
+  times.interval_s = section.number_or("interval_s", times.interval_s, Range::not_negative());
+  return times;
+}
+
 }  // namespace
 
 const std::vector<std::string>& scheme_names() {
@@ -79,6 +86,7 @@ Coupling read_coupling(const CaseFile& file) {
   coupling.qdem = read_participant(section, "qdem");
   coupling.fem = read_participant(section, "fem");
   coupling.initialise = read_initialise(section.section("initialise"), coupling.window_s);
+  coupling.checkpoint = read_checkpoint(section.section("checkpoint"));
   section.finish();
   return coupling;
 }

@@ -38,12 +38,19 @@ struct Initialise {
   double fem_residual_limit = 5e-3;   ///< of Result.residual [-]
 };
 
+/// `[coupling.checkpoint]`: when the run saves where it is.
+struct CheckpointTimes {
+  std::int64_t interval_windows = 0;  ///< 0: not by number of windows
+  double interval_s = 600.0;          ///< of wall time; 0: not by time
+};
+
 struct Coupling {
   Scheme scheme = Scheme::robin_explicit;
   double window_s = 5e-5;
   std::uint64_t n_windows = 0;
   double output_interval_s = 0.0;  ///< of the participants' fields; 0: no field output
   Initialise initialise;
+  CheckpointTimes checkpoint;
   double connect_timeout_s = 60.0;
   double stall_timeout_s = 60.0;  ///< alive but without progress
   ParticipantSpec qdem, fem;
@@ -52,8 +59,9 @@ struct Coupling {
 /// Reads `[coupling]`:
 ///   scheme (a name), window_s, duration_s (a whole number of windows), output_interval_s, connect_timeout_s,
 ///   stall_timeout_s, qdem_command [..] (default ["qdem_solver", "participant"]), fem_command [..] (default
-///   ["fem_solver", "participant"]); [coupling.initialise] window_s (default: coupling.window_s), max_windows, min_windows, check_windows, tolerance,
-///   force_floor_n, qdem_residual_limit, fem_residual_limit.
+///   ["fem_solver", "participant"]); [coupling.initialise] window_s (default: coupling.window_s), max_windows,
+///   min_windows, check_windows, tolerance, force_floor_n, qdem_residual_limit, fem_residual_limit;
+///   [coupling.checkpoint] interval_windows, interval_s.
 Coupling read_coupling(const CaseFile& file);
 
 }  // namespace proto

@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "proto/case/rail_seat.hpp"
+#include "proto/result/state_file.hpp"
 #include "proto/session/participant.hpp"
 
 namespace {
@@ -68,7 +69,7 @@ class Side : public Participant {
   std::string build_id() const override { return "oscillator_participant"; }
   Capabilities capabilities() const override {
     Capabilities can;
-    can.robin = can.rollback = true;
+    can.robin = can.rollback = can.save_restore = true;
     return can;
   }
   void commit(const Commit&) override {
@@ -76,6 +77,16 @@ class Side : public Participant {
     ++n_windows_;
   }
   void rollback(const Rollback&) override { now_ = kept_; }
+  std::uint64_t save(const Save& request) override {
+    StateWriter archive;
+    exchange(archive);
+    return archive.write(request.path);
+  }
+  void restore(const Restore& request) override {
+    StateReader archive(request.path, request.hash);
+    exchange(archive);
+    now_ = kept_;
+  }
   std::vector<Fact> finish() override {
     return {{fact_prefix_ + ".x", kept_.displacement, ""},
             {fact_prefix_ + ".v", kept_.velocity, ""},
@@ -83,6 +94,13 @@ class Side : public Participant {
   }
 
  protected:
+  /// What a restart needs, for both ways.
+  void exchange(StateArchive& archive) {
+    archive("displacement", kept_.displacement);
+    archive("velocity", kept_.velocity);
+    archive("windows", n_windows_);
+  }
+
   /// The only cell lies at the seat's origin and follows the body's translation; a rotation about the origin leaves it
   /// where it is, and a force there has no moment about it.
   SeatRegistration registration() const {

@@ -20,8 +20,8 @@ struct FieldSeriesFile::Data {
     return *history;
   }
 
-  /// Writes a step if `with_step`, and the pending history rows: values, flush, the history's counter, flush, the step's
-  /// counter, flush; so the history is never behind the steps.
+  /// Writes a step if `with_step`, and the pending history rows: values, flush, the history's counter, flush, the
+  /// step's counter, flush; so the history is never behind the steps.
   void commit(bool with_step) {
     const std::uint64_t bytes = (with_step ? fields.step_bytes() : 0) + (history ? history->pending_bytes() : 0);
     file.write(bytes, [&] {
@@ -48,6 +48,18 @@ FieldSeriesFile::~FieldSeriesFile() = default;
 
 FieldSeriesFile FieldSeriesFile::create(const std::string& path, const FieldSeriesOptions& options) {
   return FieldSeriesFile(std::make_unique<Data>(path, options));
+}
+
+FieldSeriesFile FieldSeriesFile::resume(const std::string& path, std::uint64_t n_steps, std::uint64_t n_history_rows,
+                                        const FieldSeriesOptions& options) {
+  const ResultReader before(path);
+  auto data = std::make_unique<Data>(path + ".resumed", options);
+  data->fields.continue_from(data->file, before, n_steps);
+  if (data->history) data->history->continue_from(data->file, before, n_history_rows);
+  data->file.flush();
+  data->file.synchronise();
+  data->file.rename_to(path);
+  return FieldSeriesFile(std::move(data));
 }
 
 void FieldSeriesFile::begin_step(double time) {
@@ -82,6 +94,15 @@ void FieldSeriesFile::end_history_row() {
 
 std::uint64_t FieldSeriesFile::n_steps() const {
   return data_->fields.n_steps();
+}
+
+std::uint64_t FieldSeriesFile::n_history_rows() const {
+  return data_->history ? data_->history->n_rows() : 0;
+}
+
+void FieldSeriesFile::synchronise() {
+  data_->commit(false);
+  data_->file.synchronise();
 }
 
 void FieldSeriesFile::close() {

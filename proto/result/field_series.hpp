@@ -66,6 +66,10 @@ class FieldSeriesFile {
  public:
   /// Creates (or replaces) `path`. Throws proto::Error: cannot_create; internal for a mesh or field of wrong lengths.
   static FieldSeriesFile create(const std::string& path, const FieldSeriesOptions& options);
+  /// Goes on with the file that an earlier process made by create() with the same options: its first `n_steps` steps
+  /// and `n_history_rows` rows stay; otherwise as TimeSeriesFile::resume().
+  static FieldSeriesFile resume(const std::string& path, std::uint64_t n_steps, std::uint64_t n_history_rows,
+                                const FieldSeriesOptions& options);
   FieldSeriesFile(FieldSeriesFile&&) noexcept;
   FieldSeriesFile& operator=(FieldSeriesFile&&) noexcept;
   /// Closes without throwing; a step begun and not ended is dropped.
@@ -85,7 +89,10 @@ class FieldSeriesFile {
   void put_history(const std::string& column, double value);
   void end_history_row();
 
-  std::uint64_t n_steps() const;  ///< safe in the file
+  std::uint64_t n_steps() const;         ///< safe in the file
+  std::uint64_t n_history_rows() const;  ///< ended; 0 without histories
+  /// Commits the ended history rows; all is safe against a loss of power.
+  void synchronise();
   /// Commits, closes, and writes the ParaView 5.11 sidecar (xdmf.hpp); nothing may follow.
   void close();
 

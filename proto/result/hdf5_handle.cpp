@@ -31,4 +31,16 @@ std::string last_error() {
   return text.substr(begin + key.size(), end - begin - key.size());
 }
 
+Handle timeless(hid_t property_class) {
+  Handle properties(H5Pcreate(property_class), H5Pclose);
+  H5Pset_obj_track_times(properties.id(), false);
+  return properties;
+}
+
+Handle with_groups() {
+  Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(properties.id(), 1);
+  return properties;
+}
+
 }  // namespace proto::hdf5

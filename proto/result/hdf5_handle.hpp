@@ -43,4 +43,11 @@ class Handle {
   Closer closer_ = nullptr;
 };
 
+/// Properties for creating a file, group or dataset. Equal runs give equal bytes: HDF5 would otherwise store the time
+/// of creation with every object.
+Handle timeless(hid_t property_class);
+
+/// Properties that make missing groups on the way to a new object.
+Handle with_groups();
+
 }  // namespace proto::hdf5

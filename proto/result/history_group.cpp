@@ -17,7 +17,8 @@ std::vector<std::string> names_of(const std::unordered_map<std::string, std::siz
 
 }  // namespace
 
-HistoryGroup::HistoryGroup(OutputFile& file, const std::string& group, const std::vector<Column>& columns) {
+HistoryGroup::HistoryGroup(OutputFile& file, const std::string& group, const std::vector<Column>& columns)
+    : group_(group) {
   const bool at_root = group == "/";
   const hid_t home = at_root ? file.id() : file.create_group(group);
   for (const Column& column : columns) {
@@ -27,12 +28,25 @@ HistoryGroup::HistoryGroup(OutputFile& file, const std::string& group, const std
     for (const std::size_t extent : column.shape) buffer.row_length *= extent;
     if (buffer.row_length == 0) throw Error(ExitCode::internal, "a column without values", column.name);
     const hsize_t chunk_rows = std::max<hsize_t>(1, chunk_bytes / (buffer.row_length * sizeof(double)));
-    buffer.dataset = file.create_dataset({(at_root ? "/" : group + "/") + column.name, H5T_IEEE_F64LE, buffer.row_shape,
-                                          chunk_rows, column.unit, column.description});
+    buffer.dataset = file.create_dataset(
+        {path_of(column.name), H5T_IEEE_F64LE, buffer.row_shape, chunk_rows, column.unit, column.description});
     index_[column.name] = buffers_.size();
     buffers_.push_back(std::move(buffer));
   }
   counter_ = file.create_counter(home, "n_committed");
+}
+
+std::string HistoryGroup::path_of(const std::string& column) const {
+  return (group_ == "/" ? "/" : group_ + "/") + column;
+}
+
+void HistoryGroup::continue_from(OutputFile& file, const ResultReader& source, std::uint64_t n_rows) {
+  constexpr std::uint64_t rows_at_once = 4096;
+  for (std::uint64_t first = 0; first < n_rows; first += rows_at_once) {
+    n_pending_ = std::min(rows_at_once, n_rows - first);
+    for (Buffer& buffer : buffers_) buffer.values = source.read_range(path_of(buffer.name), first, n_pending_).values;
+    file.write(pending_bytes(), [&] { write_pending(file), mark_committed(file); });
+  }
 }
 
 void HistoryGroup::put(const std::string& column, Span<const double> values) {

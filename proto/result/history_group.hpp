@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "proto/result/output_file.hpp"
+#include "proto/result/reader.hpp"
 #include "proto/result/time_series.hpp"
 
 namespace proto::hdf5 {
@@ -14,6 +15,9 @@ class HistoryGroup {
  public:
   /// Creates group (unless "/"), datasets and the counter `n_committed`.
   HistoryGroup(OutputFile& file, const std::string& group, const std::vector<Column>& columns);
+
+  /// Takes over the first `n_rows` rows of the group of the same name in `source`, before any row of its own.
+  void continue_from(OutputFile& file, const ResultReader& source, std::uint64_t n_rows);
 
   void put(const std::string& column, Span<const double> values);
   void end_row();
@@ -37,8 +41,11 @@ class HistoryGroup {
     bool is_put = false;
     std::vector<double> values;  // pending rows, then the current one
   };
+  std::string path_of(const std::string& column) const;
+
   std::vector<Buffer> buffers_;
   std::unordered_map<std::string, std::size_t> index_;
+  std::string group_;
   hid_t counter_ = -1;
   std::uint64_t n_pending_ = 0, n_committed_ = 0;
 };

@@ -10,19 +10,6 @@
 namespace proto::hdf5 {
 namespace {
 
-// Equal runs give equal bytes: HDF5 would otherwise store the time of creation with every object.
-Handle timeless(hid_t property_class) {
-  Handle properties(H5Pcreate(property_class), H5Pclose);
-  H5Pset_obj_track_times(properties.id(), false);
-  return properties;
-}
-
-Handle with_groups() {
-  Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(properties.id(), 1);
-  return properties;
-}
-
 Handle text_type() {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type.id(), H5T_VARIABLE);
@@ -151,6 +138,15 @@ void OutputFile::set_counter(hid_t counter, std::int64_t value) {
 
 void OutputFile::flush() {
   check(H5Fflush(file_.id(), H5F_SCOPE_LOCAL), "write");
+}
+
+void OutputFile::rename_to(const std::string& path) {
+  if (::rename(path_.c_str(), path.c_str()) != 0) fail("rename", std::strerror(errno));
+  path_ = path;
+}
+
+void OutputFile::synchronise() const {
+  if (::fsync(descriptor()) != 0) fail("write", std::strerror(errno));
 }
 
 void OutputFile::close() {

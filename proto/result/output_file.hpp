@@ -61,6 +61,11 @@ class OutputFile {
   void set_counter(hid_t counter, std::int64_t value);
   void flush();
 
+  /// Gives the file another name, in place of whatever has it. Throws (io_error).
+  void rename_to(const std::string& path);
+  /// After a flush: content safe against a loss of power. Throws (io_error).
+  void synchronise() const;
+
   /// Closes everything; throws (io_error) if HDF5 reports a failure.
   void close();
 

@@ -14,6 +14,17 @@ struct TimeSeriesFile::Data {
   std::size_t rows_per_commit;
 };
 
+TimeSeriesFile TimeSeriesFile::resume(const std::string& path, std::uint64_t n_rows, const std::vector<Column>& columns,
+                                      const Attributes& attributes, std::size_t rows_per_commit) {
+  const ResultReader before(path);
+  auto data = std::make_unique<Data>(path + ".resumed", columns, attributes, rows_per_commit);
+  data->history.continue_from(data->file, before, n_rows);
+  data->file.flush();
+  data->file.synchronise();
+  data->file.rename_to(path);
+  return TimeSeriesFile(std::move(data));
+}
+
 TimeSeriesFile::TimeSeriesFile(std::unique_ptr<Data> data) : data_(std::move(data)) {}
 TimeSeriesFile::TimeSeriesFile(TimeSeriesFile&&) noexcept = default;
 TimeSeriesFile& TimeSeriesFile::operator=(TimeSeriesFile&&) noexcept = default;
@@ -44,6 +55,11 @@ void TimeSeriesFile::commit() {
     history.mark_committed(file);
     file.flush();
   });
+}
+
+void TimeSeriesFile::synchronise() {
+  commit();
+  data_->file.synchronise();
 }
 
 void TimeSeriesFile::close() {

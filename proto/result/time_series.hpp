@@ -36,6 +36,11 @@ class TimeSeriesFile {
   /// Throws proto::Error: cannot_create with the path and the reason.
   static TimeSeriesFile create(const std::string& path, const std::vector<Column>& columns,
                                const Attributes& attributes = {}, std::size_t rows_per_commit = 20);
+  /// Goes on with the file that an earlier process made by create() with the same columns: its first `n_rows` rows
+  /// stay (they must be committed there), later ones are gone. Works on a copy that takes the name of `path` at the
+  /// end. Throws proto::Error: missing_input, bad_data for a file that does not hold them, cannot_create, io_error.
+  static TimeSeriesFile resume(const std::string& path, std::uint64_t n_rows, const std::vector<Column>& columns,
+                               const Attributes& attributes = {}, std::size_t rows_per_commit = 20);
   TimeSeriesFile(TimeSeriesFile&&) noexcept;
   TimeSeriesFile& operator=(TimeSeriesFile&&) noexcept;
   /// Closes without throwing; rows not yet committed are lost. Call close() to have them written and errors told.
@@ -50,6 +55,8 @@ class TimeSeriesFile {
   void end_row();
   /// Makes every ended row safe now. Throws proto::Error (io_error): path, reason, the number of rows that are safe.
   void commit();
+  /// The same, and safe against a loss of power.
+  void synchronise();
   /// Commits and closes; nothing may follow.
   void close();
 

@@ -127,6 +127,18 @@ void VtkHdfGroup::write_static_field(OutputFile& file, const StaticField& field)
   add_bookkeeping(file, "Steps/" + data_group(column.location) + "Offsets/" + column.name, 0, 0);
 }
 
+void VtkHdfGroup::continue_from(OutputFile& file, const ResultReader& source, std::uint64_t n_steps) {
+  for (std::uint64_t step = 0; step < n_steps; ++step) {
+    begin_step(source.read_range("/VTKHDF/Steps/Values", step, 1).values.front());
+    for (const Slot& slot : slots_) {
+      const std::string name = "/VTKHDF/" + data_group(slot.column.location) + "/" + slot.column.name;
+      const auto values = source.read_range(name, step * slot.n_rows, slot.n_rows).values;
+      put(slot.column.name, std::vector<float>(values.begin(), values.end()));
+    }
+    file.write(step_bytes(), [&] { write_step(file), mark_committed(file); });
+  }
+}
+
 void VtkHdfGroup::begin_step(double time) {
   time_ = time;
   for (Slot& slot : slots_) slot.is_put = false;

@@ -8,6 +8,7 @@
 
 #include "proto/result/field_series.hpp"
 #include "proto/result/output_file.hpp"
+#include "proto/result/reader.hpp"
 
 namespace proto::hdf5 {
 
@@ -16,6 +17,9 @@ class VtkHdfGroup {
   /// Writes the mesh and the static fields, creates everything that the steps extend. Throws (internal) for a mesh or a
   /// field whose lengths do not fit.
   VtkHdfGroup(OutputFile& file, const FieldSeriesOptions& options);
+
+  /// Takes over the first `n_steps` steps of `source`, before any step of its own.
+  void continue_from(OutputFile& file, const ResultReader& source, std::uint64_t n_steps);
 
   void begin_step(double time);
   void put(const std::string& field, Span<const float> values);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <utility>
 
 #include "qdem_solver/engine/stress.hpp"
 
@@ -46,8 +47,8 @@ std::vector<float> per_body(const Model& model, ValueOf value_of) {
   return result;
 }
 
-proto::FieldSeriesFile create(const std::string& path, const Model& model, const std::vector<double>& points,
-                              const proto::Attributes& attributes) {
+proto::FieldSeriesOptions options_of(const Model& model, const std::vector<double>& points,
+                                     const proto::Attributes& attributes) {
   using proto::Location;
   proto::FieldSeriesOptions options;
   options.mesh = mesh_of(model, points);
@@ -68,16 +69,26 @@ proto::FieldSeriesFile create(const std::string& path, const Model& model, const
                        {"contact_energy", "J", "of the contact springs", {}},
                        {"touching", "1", "contacts that carry a force", {}}};
   options.attributes = attributes;
-  return proto::FieldSeriesFile::create(path, options);
+  return options;
 }
 
 }  // namespace
+
+FieldsFile::FieldsFile(const Model& model, std::vector<double> reference, proto::FieldSeriesFile file)
+    : model_(model), reference_(std::move(reference)), file_(std::move(file)) {}
 
 FieldsFile::FieldsFile(const std::string& path, const Model& model, const State& reference,
                        const proto::Attributes& attributes)
     : model_(model),
       reference_(in_point_order(model, reference.x)),
-      file_(create(path, model, reference_, attributes)) {}
+      file_(proto::FieldSeriesFile::create(path, options_of(model, reference_, attributes))) {}
+
+FieldsFile FieldsFile::resume(const std::string& path, const Model& model, const State& reference,
+                              const proto::Attributes& attributes, std::uint64_t n_steps) {
+  auto points = in_point_order(model, reference.x);
+  auto file = proto::FieldSeriesFile::resume(path, n_steps, n_steps, options_of(model, points, attributes));
+  return {model, std::move(points), std::move(file)};
+}
 
 void FieldsFile::put_stresses(const State& state) {
   std::vector<double> von_mises, mean;

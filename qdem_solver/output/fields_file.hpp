@@ -1,6 +1,7 @@
 // qdem.h5: stones and sleeper over time, for ParaView and for reports.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,21 @@ class FieldsFile {
   /// Creates `path`. `model` must outlive the object. Throws proto::Error (cannot_create).
   FieldsFile(const std::string& path, const Model& model, const State& reference, const proto::Attributes& attributes);
 
+  /// Goes on with the file that an earlier process made with the same model and reference, after its first `n_steps`.
+  static FieldsFile resume(const std::string& path, const Model& model, const State& reference,
+                           const proto::Attributes& attributes, std::uint64_t n_steps);
+
   /// Appends one step. Throws proto::Error (io_error).
   void write(double time, const State& state, const Engine& engine);
 
+  std::uint64_t n_steps() const { return file_.n_steps(); }
+  /// What was written is safe against a loss of power.
+  void synchronise() { file_.synchronise(); }
   /// Closes and writes the ParaView sidecar.
   void close();
 
  private:
+  FieldsFile(const Model& model, std::vector<double> reference, proto::FieldSeriesFile file);
   void put_stresses(const State& state);
 
   const Model& model_;

@@ -8,7 +8,9 @@
 #include "proto/case/coupling.hpp"
 #include "proto/error.hpp"
 #include "proto/result/provenance.hpp"
+#include "proto/result/state_file.hpp"
 #include "qdem_solver/engine/pads.hpp"
+#include "qdem_solver/output/exchange.hpp"
 #include "qdem_solver/participant/seat_registration.hpp"
 
 namespace qdem {
@@ -33,7 +35,7 @@ std::string QdemParticipant::build_id() const {
 
 proto::Capabilities QdemParticipant::capabilities() const {
   proto::Capabilities capabilities;
-  capabilities.rollback = true, capabilities.initialise = true;
+  capabilities.rollback = capabilities.initialise = capabilities.save_restore = true;
   return capabilities;
 }
 
@@ -157,17 +159,73 @@ proto::FieldSet QdemParticipant::start() {
   bed_->find_step(window_s_);
   committed_step_ = bed_->largest_step();
   marching_ = true;
+  start_positions_ = bed_->state().x;
   open_files();
   const std::vector<double> zero(3 * bed_->model().pads.size(), 0.0);
   return values({zero, zero});
 }
 
+State QdemParticipant::start_state() const {
+  State state;
+  state.x = start_positions_;
+  return state;
+}
+
+void QdemParticipant::exchange(proto::StateArchive& archive) {
+  archive.expect_same("bed", "the bed", bed_->bed_hash());
+  qdem::exchange(archive, "state/", bed_->state());
+  archive("committed_step", committed_step_);
+  archive("windows_above_bound", windows_above_bound_);
+  archive("rail_foot", rail_foot_);
+  archive("start_positions", start_positions_);
+}
+
+std::uint64_t QdemParticipant::save(const proto::Save& request) {
+  proto::StateWriter archive;
+  exchange(archive);
+  if (fields_) {
+    fields_->synchronise();
+    auto n_steps = fields_->n_steps();
+    archive("fields/steps", n_steps);
+  }
+  if (sensors_) {
+    sensors_->synchronise();
+    sensors_->exchange(archive);
+  }
+  return archive.write(request.path);
+}
+
+void QdemParticipant::restore(const proto::Restore& request) {
+  proto::StateReader archive(request.path, request.hash);
+  exchange(archive);
+  marching_ = true;
+  resume_files(archive);
+}
+
+void QdemParticipant::resume_files(proto::StateArchive& saved) {
+  const auto attributes = bed_->attributes(file_);
+  const State start = start_state();
+  fields_.reset(), sensors_.reset();
+  if (output_interval_ > 0) {
+    std::uint64_t n_steps = 0;
+    saved("fields/steps", n_steps);
+    fields_ =
+        std::make_unique<FieldsFile>(FieldsFile::resume(out_ + "/qdem.h5", bed_->model(), start, attributes, n_steps));
+  }
+  const SensorsSettings& sensors = bed_->settings().sensors;
+  if (!sensors.list.empty())
+    sensors_ = std::make_unique<SensorFile>(out_ + "/sensors.h5", sensors, bed_->model(), start, attributes, saved);
+}
+
 std::vector<proto::Fact> QdemParticipant::finish() {
+  proto::StateWriter end;
+  if (marching_) exchange(end);
   if (fields_) fields_->close();
   if (sensors_) sensors_->close();
   fields_.reset(), sensors_.reset();
   const auto contacts = bed_->engine().contacts().report(bed_->state());
-  return {{"qdem.end.coordination_number", contacts.coordination_number, {}},
+  return {{"qdem.end.state_hash", std::nullopt, fmt::format("{:016x}", end.hash())},
+          {"qdem.end.coordination_number", contacts.coordination_number, {}},
           {"qdem.end.largest_penetration_m", contacts.largest_penetration, {}},
           {"qdem.windows_above_bound", static_cast<double>(windows_above_bound_), {}},
           {"qdem.steps", static_cast<double>(bed_->state().step), {}},

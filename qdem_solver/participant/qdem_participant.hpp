@@ -37,6 +37,8 @@ class QdemParticipant : public proto::Participant {
   void commit(const proto::Commit& request) override;
   void rollback(const proto::Rollback& request) override;
   proto::FieldSet start() override;
+  std::uint64_t save(const proto::Save& request) override;
+  void restore(const proto::Restore& request) override;
   std::vector<proto::Fact> finish() override;
 
  private:
@@ -44,6 +46,10 @@ class QdemParticipant : public proto::Participant {
   void begin_window(const proto::Advance& request);
   void check_sensor_interval() const;
   void open_files();
+  void resume_files(proto::StateArchive& saved);
+  /// Everything but the files' own counts.
+  void exchange(proto::StateArchive& archive);
+  State start_state() const;
   bool output_is_due(std::int64_t window) const;
 
   proto::CaseFile file_;
@@ -58,6 +64,7 @@ class QdemParticipant : public proto::Participant {
   double committed_step_ = 0.0;           ///< largest stable one from the last commit [s]
   std::int64_t windows_above_bound_ = 0;  ///< whose contacts turned out stiffer than foreseen, in spite of the safety
   std::vector<double> rail_foot_;         ///< at the end of the last window
+  std::vector<double> start_positions_;   ///< of all particles at time 0, laid out like State::x
   bool relaxing_ = false, marching_ = false;
 };
 

@@ -60,6 +60,7 @@ class TrackBed {
 
   /// The bed's and the time step's figures for the summary.
   std::vector<proto::Fact> facts() const;
+  const std::string& bed_hash() const { return bed_.report.hash; }
   /// Provenance, bed hash and seed for result files.
   proto::Attributes attributes(const proto::CaseFile& file) const;
 

@@ -30,8 +30,16 @@ class MotionColumns {
   void put(proto::TimeSeriesFile& file, const Vector3d& position, const Vector3d& velocity, double elapsed) {
     put_vector(file, name_ + "/displacement", position - start_);
     put_vector(file, name_ + "/velocity", velocity);
-    put_vector(file, name_ + "/acceleration", elapsed > 0 ? Vector3d((velocity - before_) / elapsed) : Vector3d(0, 0, 0));
+    put_vector(file, name_ + "/acceleration",
+               elapsed > 0 ? Vector3d((velocity - before_) / elapsed) : Vector3d(0, 0, 0));
     before_ = velocity;
+  }
+
+  void exchange(proto::StateArchive& archive) {
+    std::vector<Vector3d> before{before_};
+    archive("sensors/" + name_ + "/velocity_before", before);
+    archive.expect_length("sensors/" + name_ + "/velocity_before", before.size(), 1);
+    before_ = before.front();
   }
 
  private:
@@ -77,6 +85,8 @@ class StoneSensor : public Sensor {
     put_vector(file, name_ + "/rotation", turn.angle() * turn.axis());
   }
 
+  void exchange(proto::StateArchive& archive) override { motion_.exchange(archive); }
+
  private:
   std::string name_;
   const Model& model_;
@@ -109,6 +119,8 @@ class ParticleSensor : public Sensor {
   void put(proto::TimeSeriesFile& file, const State& state, const ContactStage&, double elapsed) override {
     motion_.put(file, state.position(model_, body_, node_), state.velocity(model_, body_, node_), elapsed);
   }
+
+  void exchange(proto::StateArchive& archive) override { motion_.exchange(archive); }
 
  private:
   std::string name_;

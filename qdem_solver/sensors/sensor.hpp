@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "proto/result/attributes.hpp"
+#include "proto/result/state_archive.hpp"
 #include "proto/result/time_series.hpp"
 #include "qdem_solver/contact/contact_stage.hpp"
 #include "qdem_solver/model/model.hpp"
@@ -23,6 +24,8 @@ class Sensor {
   virtual proto::Attributes place() const = 0;
   /// Puts the values at `state` into the current row. `elapsed`: since the last row, 0 in the first [s].
   virtual void put(proto::TimeSeriesFile& file, const State& state, const ContactStage& contacts, double elapsed) = 0;
+  /// What it remembers from one row to the next.
+  virtual void exchange(proto::StateArchive&) {}
 };
 
 /// Sensing stone: displacement, velocity and mean acceleration of the centre of mass, and rotation as a vector, all

@@ -17,14 +17,25 @@ class SensorFile {
   /// Throws proto::Error (cannot_create, bad_data for a sensor that finds nothing to measure).
   SensorFile(const std::string& path, const SensorsSettings& settings, const Model& model, const State& reference,
              proto::Attributes attributes);
+  /// Goes on with the file that an earlier process made with the same arguments, from what its exchange() saved.
+  SensorFile(const std::string& path, const SensorsSettings& settings, const Model& model, const State& reference,
+             proto::Attributes attributes, proto::StateArchive& saved);
 
   /// When the next sample is due [s].
   double next_time() const { return static_cast<double>(n_samples_) * interval_; }
   /// Takes a sample if one is due at `time` [s]; `contacts` holds the forces of `state`.
   void look(double time, const State& state, const ContactStage& contacts);
+  /// The number of samples and what the sensors remember.
+  void exchange(proto::StateArchive& archive);
+  /// What was sampled is safe against a loss of power.
+  void synchronise() { file_->synchronise(); }
   void close() { file_->close(); }
 
  private:
+  /// Makes the sensors; returns the columns of the file and adds where they sit to `attributes`.
+  std::vector<proto::Column> make_sensors(const SensorsSettings& settings, const Model& model, const State& reference,
+                                          proto::Attributes& attributes);
+
   double interval_;
   std::int64_t n_samples_ = 0;
   double last_time_ = 0.0;

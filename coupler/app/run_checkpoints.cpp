@@ -1,0 +1,105 @@
+// The part of CoupledRun that saves and resumes.
+#include <fmt/format.h>
+
+#include "coupler/app/coupled_run.hpp"
+#include "proto/result/provenance.hpp"
+#include "proto/result/state_file.hpp"
+
+namespace coupler {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr const char* participants[] = {"fem", "qdem"};
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+void CoupledRun::exchange(proto::StateArchive& archive) {
+  scheme_->exchange(archive);
+  audit_.exchange(archive);
+  coupler::exchange(archive, summary_.seats);
+  std::uint64_t hash = hash_.value();
+  archive("interface_hash", hash);
+  hash_.set(hash);
+  archive("initialise/windows", summary_.initialise_windows);
+  archive("initialise/change", summary_.rest.change);
+  archive("initialise/qdem_residual", summary_.rest.qdem_residual);
+  archive("initialise/fem_residual", summary_.rest.fem_residual);
+  archive("sub_cycles", summary_.sub_cycles);
+}
+
+bool CoupledRun::saves_at_all() const {
+  const auto& times = input_.coupling.checkpoint;
+  return times.interval_windows > 0 || times.interval_s > 0.0;
+}
+
+bool CoupledRun::save_is_due(std::int64_t window) const {
+  const auto& times = input_.coupling.checkpoint;
+  if (!can_save_) return false;
+  if (times.interval_windows > 0 && (window + 1) % times.interval_windows == 0) return true;
+  return times.interval_s > 0.0 && seconds_since(last_save_) >= times.interval_s;
+}
+
+void CoupledRun::save(std::int64_t window) {
+  if (window == checkpointed_window_) return;
+  supervisor_.set_stage(fmt::format("checkpoint after window {}", window));
+  auto set = slots_.begin();
+  auto& manifest = set.manifest;
+  manifest.window = window;
+  manifest.window_s = input_.coupling.window_s;
+  manifest.case_path = input_.file.path();
+  manifest.case_hash = input_.file.hash();
+  manifest.version = proto::project_version();
+  manifest.source = proto::source_description();
+  std::map<std::string, std::uint64_t> tickets;
+  for (const char* name : participants) tickets[name] = supervisor_.send(name, proto::Save{window, set.file(name)});
+  for (const auto& [name, ticket] : tickets)
+    manifest.hashes[name] = supervisor_.await<proto::Saved>(name, ticket, true).hash;
+  record_->synchronise();
+  proto::StateWriter own;
+  exchange(own);
+  record_->exchange(own);
+  manifest.hashes["coupler"] = own.write(set.file("coupler"));
+  CheckpointSlots::complete(set);
+  summary_.checkpoint_window = checkpointed_window_ = window;
+  last_save_ = Clock::now();
+  log_.info("checkpoint after window {} in {}", window, set.folder);
+}
+
+void CoupledRun::resume(const Checkpoint& set) {
+  const auto& manifest = set.manifest;
+  supervisor_.set_stage(fmt::format("resuming after window {}", manifest.window));
+  if (!can_save_)
+    throw proto::Error(proto::ExitCode::config, "a participant does not offer to restore a checkpoint",
+                       supervisor_.stage());
+  if (manifest.window_s != input_.coupling.window_s)
+    throw proto::Error(proto::ExitCode::config,
+                       fmt::format("the checkpoint was made with windows of {:g} s, the case has {:g} s",
+                                   manifest.window_s, input_.coupling.window_s),
+                       "coupling.window_s", "time is counted in windows: run the changed case from its beginning");
+  slots_.forget_later(set);
+  std::map<std::string, std::uint64_t> tickets;
+  for (const char* name : participants)
+    tickets[name] = supervisor_.send(name, proto::Restore{manifest.window, set.file(name), manifest.hashes.at(name)});
+  for (const auto& [name, ticket] : tickets) supervisor_.await<proto::Restored>(name, ticket, true);
+  scheme_.emplace(input_.coupling.scheme, input_.coupling.window_s, 1, laws_);
+  proto::StateReader own(set.file("coupler"), manifest.hashes.at("coupler"));
+  exchange(own);
+  record_.emplace(folder_.file("coupling.h5"), input_.seats, input_.coupling.window_s, record_attributes(), own);
+  next_window_ = manifest.window + 1;
+  summary_.checkpoint_window = manifest.window;
+  update_totals(next_window_);
+  ++summary_.resumed;
+  log_.info("resumed after window {} from {}", manifest.window, set.folder);
+}
+
+MarchEnd CoupledRun::early_end(std::optional<Clock::time_point> deadline) const {
+  if (supervisor_.stop_requested()) return MarchEnd::stopped_by_user;
+  if (deadline && Clock::now() >= *deadline) return MarchEnd::out_of_time;
+  return MarchEnd::complete;
+}
+
+}  // namespace coupler

@@ -1,0 +1,41 @@
+#include "qdem_solver/output/exchange.hpp"
+
+namespace qdem {
+namespace {
+
+void exchange_keys(proto::StateArchive& archive, const std::string& name, std::vector<ContactKey>& keys) {
+  std::vector<int> list;
+  for (const ContactKey& key : keys) list.insert(list.end(), {key.body_a, key.body_b, key.feature_a, key.feature_b});
+  archive(name, list);
+  archive.expect_length(name, list.size() % 4, 0);
+  keys.clear();
+  for (std::size_t i = 0; i < list.size(); i += 4) keys.push_back({list[i], list[i + 1], list[i + 2], list[i + 3]});
+}
+
+void exchange(proto::StateArchive& archive, const std::string& prefix, ContactState& contact) {
+  exchange_keys(archive, prefix + "keys", contact.keys);
+  archive(prefix + "triangle_offsets", contact.triangle_offsets);
+  archive(prefix + "triangles", contact.triangles);
+  archive(prefix + "slip", contact.slip);
+  archive(prefix + "travel", contact.travel);
+  archive(prefix + "rebuilds", contact.rebuilds);
+  archive(prefix + "rebuild_time", contact.rebuild_time);
+  archive(prefix + "list_id", contact.list_id);
+}
+
+}  // namespace
+
+void exchange(proto::StateArchive& archive, const std::string& prefix, State& state) {
+  const std::size_t n = state.x.size();
+  archive(prefix + "step", state.step);
+  archive(prefix + "time", state.time);
+  archive(prefix + "x", state.x);
+  archive(prefix + "v", state.v);
+  archive(prefix + "a", state.a);
+  for (const auto* values : {&state.x, &state.v, &state.a})
+    archive.expect_length(prefix + "x, v, a", values->size(), n);
+  archive(prefix + "pad_force", state.pad_force);
+  exchange(archive, prefix + "contact/", state.contact);
+}
+
+}  // namespace qdem
