@@ -23,9 +23,9 @@ int code(proto::ExitCode value) {
 }
 
 /// Some two seconds of windows with a checkpoint after every fiftieth.
-std::string oscillator_case(const std::string& checkpoint = "interval_windows = 50") {
+std::string oscillator_case(const std::string& checkpoint = "interval_windows = 50", int windows = n_windows) {
   tests::OscillatorCase variant;
-  variant.window_s = 1e-3, variant.duration_s = n_windows * 1e-3;
+  variant.window_s = 1e-3, variant.duration_s = windows * 1e-3;
   variant.more_coupling = "[coupling.checkpoint]\n" + checkpoint + "\n";
   return variant.text();
 }
@@ -130,10 +130,11 @@ TEST_P(Stop, LeavesACheckpoint) {
 INSTANTIATE_TEST_SUITE_P(By, Stop, ::testing::Values(SIGINT, SIGTERM));
 
 TEST(Resume, AfterTheLimitOfWallTime) {
-  const auto expected = undisturbed(oscillator_case("interval_s = 0.0"));
-  CoupledRun run(oscillator_case("interval_s = 0.0"));
-  EXPECT_EQ(run.run({"run", run.case_path(), "--out", run.out(), "--wall-limit", "0.6"}).value_or(-1), 124)
-      << run.message();
+  const auto text = oscillator_case("interval_s = 0.0", 5 * n_windows);
+  const auto expected = undisturbed(text);
+  CoupledRun run(text);
+  run.start({"run", run.case_path(), "--out", run.out(), "--wall-limit", "2"});
+  EXPECT_EQ(run.wait().value_or(-1), 124) << run.message();
   EXPECT_EQ(run.summary()["status"], "interrupted");
   EXPECT_EQ(run.run(resuming(run)).value_or(-1), 0) << run.message();
   EXPECT_EQ(ending_of(run), expected);
