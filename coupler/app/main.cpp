@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
-#include "coupler/app/options.hpp"
+#include "coupler/app/analyze_options.hpp"
 #include "coupler/launch/children.hpp"
 #include "coupler/launch/exec_child.hpp"
 #include "proto/case/coupling.hpp"
@@ -42,6 +42,8 @@ int command_line(int argc, char** argv) {
   auto* run = add_runner("run", "run a case");
   auto* converge = add_runner("converge", "run a case with H, H/2, H/4, ... and report the observed orders");
   converge->add_option("--levels", n_levels, "number of runs")->check(CLI::Range(3, 12))->capture_default_str();
+  coupler::AnalyzeOptions analysis;
+  const auto* analyze = coupler::add_analyze_command(app, analysis);
   auto* check = app.add_subcommand("check", "validate a case without running it");
   check->add_option("CASE", options.case_path, "case file (TOML)")->required();
   try {
@@ -50,6 +52,7 @@ int command_line(int argc, char** argv) {
     const int code = app.exit(error);
     return code == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
   }
+  if (analyze->parsed()) return coupler::analyze_run(analysis);
   if (converge->parsed()) return coupler::converge_case(options, n_levels);
   return run->parsed() ? coupler::run_case(options) : coupler::check_case(options.case_path);
 }

@@ -100,10 +100,14 @@ ResultArray ResultReader::read(const std::string& dataset) const {
 }
 
 ResultArray ResultReader::read_rows(const std::string& dataset, std::uint64_t n_rows) const {
+  return read_rows(dataset, 0, n_rows);
+}
+
+ResultArray ResultReader::read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t n_rows) const {
   const Handle source = data_->dataset(dataset);
   auto dims = extents(source.id());
   if (!dims.empty()) {
-    if (n_rows > dims[0]) data_->fail("fewer rows than committed: dataset", dataset);
+    if (first + n_rows > dims[0]) data_->fail("fewer rows than committed: dataset", dataset);
     dims[0] = n_rows;
   }
   ResultArray array{{dims.begin(), dims.end()}, {}};
@@ -111,14 +115,19 @@ ResultArray ResultReader::read_rows(const std::string& dataset, std::uint64_t n_
   if (array.values.empty()) return array;
   const Handle target(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
   const Handle selected(H5Dget_space(source.id()), H5Sclose);
-  const std::vector<hsize_t> start(dims.size(), 0);
+  std::vector<hsize_t> start(dims.size(), 0);
   if (!dims.empty()) {
+    start[0] = first;
     H5Sselect_hyperslab(selected.id(), H5S_SELECT_SET, start.data(), nullptr, dims.data(), nullptr);
   }
   if (H5Dread(source.id(), H5T_NATIVE_DOUBLE, target.id(), selected.id(), H5P_DEFAULT, array.values.data()) < 0) {
     data_->fail("cannot read (" + hdf5::last_error() + ") dataset", dataset);
   }
   return array;
+}
+
+bool ResultReader::has_attribute(const std::string& object, const std::string& attribute) const {
+  return H5Aexists_by_name(data_->file.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;
 }
 
 double ResultReader::number(const std::string& object, const std::string& attribute) const {

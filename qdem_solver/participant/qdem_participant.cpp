@@ -131,7 +131,8 @@ void QdemParticipant::open_files() {
   const auto attributes = bed_->attributes(file_);
   if (output_interval_ > 0) {
     fields_ = std::make_unique<FieldsFile>(out_ + "/qdem.h5", bed_->model(), bed_->state(), attributes);
-    fields_->write(0.0, bed_->state(), bed_->engine());
+    if (bed_->settings().contact_output) contacts_ = std::make_unique<ContactsFile>(out_ + "/contacts.h5", attributes);
+    write_fields(0.0);
   }
   const SensorsSettings& sensors = bed_->settings().sensors;
   if (sensors.list.empty()) return;
@@ -139,12 +140,17 @@ void QdemParticipant::open_files() {
   sensors_->look(0.0, bed_->state(), bed_->engine().contacts());
 }
 
+void QdemParticipant::write_fields(double time) {
+  fields_->write(time, bed_->state(), bed_->engine());
+  if (contacts_) contacts_->write(time, bed_->state(), bed_->engine().contacts());
+}
+
 void QdemParticipant::commit(const proto::Commit& request) {
   committed_step_ = bed_->largest_step();
   if (!marching_) return;
   const double time = static_cast<double>(request.window + 1) * window_s_;
   if (sensors_) sensors_->look(time, bed_->state(), bed_->engine().contacts());
-  if (fields_ && output_is_due(request.window)) fields_->write(time, bed_->state(), bed_->engine());
+  if (fields_ && output_is_due(request.window)) write_fields(time);
 }
 
 void QdemParticipant::rollback(const proto::Rollback&) {
@@ -165,7 +171,8 @@ proto::FieldSet QdemParticipant::start() {
 std::vector<proto::Fact> QdemParticipant::finish() {
   if (fields_) fields_->close();
   if (sensors_) sensors_->close();
-  fields_.reset(), sensors_.reset();
+  if (contacts_) contacts_->close();
+  fields_.reset(), contacts_.reset(), sensors_.reset();
   const auto contacts = bed_->engine().contacts().report(bed_->state());
   return {{"qdem.end.coordination_number", contacts.coordination_number, {}},
           {"qdem.end.largest_penetration_m", contacts.largest_penetration, {}},

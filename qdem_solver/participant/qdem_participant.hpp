@@ -8,6 +8,7 @@
 
 #include "proto/case/case_file.hpp"
 #include "proto/session/participant.hpp"
+#include "qdem_solver/output/contacts_file.hpp"
 #include "qdem_solver/output/fields_file.hpp"
 #include "qdem_solver/participant/track_bed.hpp"
 #include "qdem_solver/sensors/sensor_file.hpp"
@@ -44,6 +45,7 @@ class QdemParticipant : public proto::Participant {
   void begin_window(const proto::Advance& request);
   void check_sensor_interval() const;
   void open_files();
+  void write_fields(double time);
   bool output_is_due(std::int64_t window) const;
 
   proto::CaseFile file_;
@@ -52,6 +54,7 @@ class QdemParticipant : public proto::Participant {
   proto::Progress* progress_ = nullptr;
   std::unique_ptr<TrackBed> bed_;
   std::unique_ptr<FieldsFile> fields_;
+  std::unique_ptr<ContactsFile> contacts_;
   std::unique_ptr<SensorFile> sensors_;
   State before_window_;
   double window_s_ = 0.0, output_interval_ = 0.0;
