@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "coupler/study/analyses.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double largest_force = 6.0;  // of the distribution, over the mean
 constexpr std::size_t n_force_bins = 24;
+constexpr const char* energy_group = "energies, from begin to end";
 
 /// Row of the output nearest to `wanted`.
 std::size_t nearest_output(const std::vector<double>& time, double wanted) {
@@ -54,6 +56,41 @@ Table distribution_table(const ContactHistory& history, std::size_t start, std::
   return table;
 }
 
+/// Shares of the columns whose name ends in "_dissipation" in what they took together.
+void add_sinks(const Table& energies, Findings& findings) {
+  const std::string ending = "_dissipation";
+  std::vector<std::pair<std::string, double>> sinks;
+  double sum = 0.0;
+  for (const auto& [name, unit, values] : energies.columns) {
+    if (name.size() <= ending.size() || name.substr(name.size() - ending.size()) != ending) continue;
+    sinks.emplace_back(name.substr(0, name.size() - ending.size()), values.back() - values.front());
+    sum += sinks.back().second;
+  }
+  for (const auto& [name, taken] : sinks)
+    findings.figures.push_back({"share of the dissipation", name, taken / sum, "1"});
+}
+
+Table energy_table(const proto::ResultReader& qdem) {
+  const auto n = qdem.n_committed("/TimeSeries");
+  Table table{"energies", {}};
+  table.add("time", "s", qdem.read_rows("/TimeSeries/time", n).values);
+  for (const auto& name : qdem.members("/TimeSeries")) {
+    if (n == 0 || qdem.text("/TimeSeries/" + name, "units") != "J") continue;
+    table.add(name, "J", qdem.read_rows("/TimeSeries/" + name, n).values);
+  }
+  return table;
+}
+
+void add_work_at_seats(const proto::ResultReader& coupling, Findings& findings) {
+  for (const auto& seat : coupling.members("/seats")) {
+    double given = 0.0;
+    for (const double work : coupling.read_rows("/seats/" + seat + "/work_rail", coupling.n_committed()).values) {
+      given -= work;
+    }
+    findings.figures.push_back({energy_group, "given by the rail at " + seat, given, "J"});
+  }
+}
+
 }  // namespace
 
 void add_force_chains(const Run& run, const Options&, Findings& findings) {
@@ -80,30 +117,19 @@ void add_force_chains(const Run& run, const Options&, Findings& findings) {
 }
 
 void add_energies(const Run& run, const Options&, Findings& findings) {
+  if (run.files.coupling()) add_work_at_seats(*run.files.coupling(), findings);
   const auto& qdem = run.files.qdem();
-  if (qdem && qdem->has("/TimeSeries")) {
-    const auto n = qdem->n_committed("/TimeSeries");
-    Table table{"energies", {}};
-    table.add("time", "s", qdem->read_rows("/TimeSeries/time", n).values);
-    for (const auto& name : qdem->members("/TimeSeries")) {
-      if (qdem->text("/TimeSeries/" + name, "units") != "J" || n == 0) continue;
-      table.add(name, "J", qdem->read_rows("/TimeSeries/" + name, n).values);
-      const auto& values = table.columns.back().values;
-      findings.figures.push_back({"energies, from begin to end", name, values.back() - values.front(), "J"});
-    }
-    findings.tables.push_back(std::move(table));
-  } else {
+  if (!qdem || !qdem->has("/TimeSeries")) {
     findings.notes.push_back("energies: they need output of the fields (qdem.h5)");
+    return;
   }
-  const auto& coupling = run.files.coupling();
-  if (!coupling) return;
-  for (const auto& seat : coupling->members("/seats")) {
-    double given = 0.0;
-    for (const double work : coupling->read_rows("/seats/" + seat + "/work_rail", coupling->n_committed()).values) {
-      given -= work;
-    }
-    findings.figures.push_back({"energies, from begin to end", "given by the rail at " + seat, given, "J"});
+  auto table = energy_table(*qdem);
+  for (std::size_t c = 1; c < table.columns.size(); ++c) {
+    const auto& [name, unit, values] = table.columns[c];
+    findings.figures.push_back({energy_group, name, values.back() - values.front(), unit});
   }
+  add_sinks(table, findings);
+  findings.tables.push_back(std::move(table));
 }
 
 }  // namespace coupler::study

@@ -60,9 +60,17 @@ struct BinResponse {
   std::vector<double> mean, deviation, coherence;
 };
 
-BinResponse over_stones(const std::vector<analysis::Response>& responses, std::size_t n_lines) {
+BinResponse response_of(const analysis::DepthBin& bin, const Run& run, int axis, const analysis::Segmentation& cut,
+                        const analysis::BottomReference& reference) {
+  const auto& stones = *run.stones;
+  std::vector<analysis::Response> responses;
+  for (const std::size_t stone : bin.points) {
+    const auto spectra =
+        analysis::segment_transforms(stones.history(stones.velocity, stone, axis), stones.interval, cut);
+    responses.push_back(reference.response(spectra, cell_above(*run.bottom, stones.place[stone])));
+  }
   BinResponse result;
-  for (std::size_t k = 0; k < n_lines; ++k) {
+  for (std::size_t k = 0; k < reference.frequency().size(); ++k) {
     std::vector<double> magnitude, coherence;
     for (const auto& response : responses) {
       magnitude.push_back(response.magnitude[k]), coherence.push_back(response.coherence[k]);
@@ -99,6 +107,18 @@ std::string name_of(const std::vector<analysis::DepthBin>& bins, std::size_t b) 
                      bins[b].points.size());
 }
 
+/// Band means of a bin, as columns NAME, NAME_deviation, NAME_coherence; returns the first. The line at 0 never counts.
+double put_band(BandTable& table, const std::string& name, const BinResponse& response,
+                const std::vector<double>& frequency, const Band& band) {
+  const auto mean = [&](const std::vector<double>& values) {
+    return analysis::band_mean(frequency, values, std::max(band.low, 0.5 * frequency[1]), band.high);
+  };
+  table.put(name, "1", mean(response.mean));
+  table.put(name + "_deviation", "1", mean(response.deviation));
+  table.put(name + "_coherence", "1", mean(response.coherence));
+  return mean(response.mean);
+}
+
 void note_short_record(double record, double resolution, Findings& findings) {
   if (record >= record_for_low_frequencies) return;
   findings.notes.push_back(fmt::format(
@@ -120,42 +140,30 @@ void add_transfer(const Run& run, const Options& options, Findings& findings) {
   const auto reference = reference_of(*run.bottom, options.axis, *cut);
   const auto& frequency = reference.frequency();
   note_short_record(stones.interval * static_cast<double>(stones.n_samples()), frequency[1], findings);
-  const std::string group =
-      fmt::format("T(f,z), {} motion", std::array{"longitudinal", "lateral", "vertical"}[options.axis]);
+  const std::array directions{"longitudinal", "lateral", "vertical"};
+  const std::string group = fmt::format("T(f,z), {} motion", directions[static_cast<std::size_t>(options.axis)]);
   add_resolution(group, "T(f,z)", *cut, stones.n_samples(), stones.interval, findings);
 
   Table lines{"transfer", {}};
   lines.add("frequency", "Hz", frequency);
   lines.add("bottom_density", "(m/s)^2/Hz", reference.power());
   BandTable bands("transfer_bands");
-  int n_low_below_high = 0;
+  double n_low_below_high = 0;
   for (std::size_t b = 0; b < bins.size(); ++b) {
-    std::vector<analysis::Response> responses;
-    for (const std::size_t stone : bins[b].points) {
-      const auto spectra =
-          analysis::segment_transforms(stones.history(stones.velocity, stone, options.axis), stones.interval, *cut);
-      responses.push_back(reference.response(spectra, cell_above(*run.bottom, stones.place[stone])));
-    }
-    const auto response = over_stones(responses, frequency.size());
-    const auto in_band = [&](const std::vector<double>& values, const Band& band) {
-      return analysis::band_mean(frequency, values, std::max(band.low, 0.5 * frequency[1]), band.high);
-    };
+    const auto response = response_of(bins[b], run, options.axis, *cut, reference);
     lines.add(fmt::format("bin_{}", b + 1), "1", response.mean);
     lines.add(fmt::format("bin_{}_deviation", b + 1), "1", response.deviation);
     lines.add(fmt::format("bin_{}_coherence", b + 1), "1", response.coherence);
-    const double low = in_band(response.mean, options.low), high = in_band(response.mean, options.high);
     bands.put_bin(bins[b]);
-    bands.put("low", "1", low), bands.put("low_deviation", "1", in_band(response.deviation, options.low));
-    bands.put("low_coherence", "1", in_band(response.coherence, options.low));
-    bands.put("high", "1", high), bands.put("high_deviation", "1", in_band(response.deviation, options.high));
-    bands.put("high_coherence", "1", in_band(response.coherence, options.high));
-    n_low_below_high += low < high;
-    findings.figures.push_back({group, name_of(bins, b) + fmt::format(", to {:g} Hz", options.low.high), low, "1"});
+    const double low = put_band(bands, "low", response, frequency, options.low);
+    const double high = put_band(bands, "high", response, frequency, options.high);
+    n_low_below_high += low < high ? 1 : 0;
+    const std::string bin = name_of(bins, b);
+    findings.figures.push_back({group, bin + fmt::format(", to {:g} Hz", options.low.high), low, "1"});
     findings.figures.push_back(
-        {group, name_of(bins, b) + fmt::format(", {:g} to {:g} Hz", options.high.low, options.high.high), high, "1"});
+        {group, bin + fmt::format(", {:g} to {:g} Hz", options.high.low, options.high.high), high, "1"});
   }
-  findings.figures.push_back(
-      {group, "depth bins in which low frequencies are absorbed more", static_cast<double>(n_low_below_high), "1"});
+  findings.figures.push_back({group, "depth bins in which low frequencies are absorbed more", n_low_below_high, "1"});
   findings.tables.push_back(std::move(lines));
   findings.tables.push_back(bands.take());
 }

@@ -9,6 +9,7 @@
 #include "coupler/record/coupling_record.hpp"
 #include "coupler/study/analyses.hpp"
 #include "coupler/study/stone_mesh.hpp"
+#include "proto/result/field_series.hpp"
 #include "qdem_solver/participant/run_alone.hpp"
 #include "tests/support/processes.hpp"
 #include "tests/support/small_bed.hpp"
@@ -169,6 +170,32 @@ TEST(AnalysisOfARun, ContactsAndEnergiesAreThere) {
   EXPECT_GT(*std::max_element(kinetic.begin(), kinetic.end()), 0.0);
   EXPECT_FALSE(table(findings, "modes_bottom").columns.empty());
   EXPECT_EQ(column(findings, "history_sensor_deep", "time").size(), 601u);
+}
+
+TEST(EnergiesByName, SharesOfWhatDissipated) {
+  const tests::TemporaryFolder folder;
+  proto::FieldSeriesOptions options;
+  options.mesh =
+      proto::OutputMesh::of_one_type({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 1, 2, 3}, proto::CellType::tetrahedron);
+  options.static_fields = {{{"body", "1", "", proto::Location::cell, 1}, {0.f}},
+                           {{"sleeper", "1", "", proto::Location::cell, 1}, {0.f}}};
+  options.histories = {{"time", "s", "", {}},
+                       {"kinetic_energy", "J", "", {}},
+                       {"friction_dissipation", "J", "", {}},
+                       {"viscous_dissipation", "J", "", {}},
+                       {"touching", "1", "", {}}};
+  auto file = proto::FieldSeriesFile::create(folder.file("qdem.h5"), options);
+  for (const double t : {0.0, 1.0, 2.0}) {
+    file.put_history("time", t), file.put_history("kinetic_energy", 5 - t), file.put_history("touching", 7);
+    file.put_history("friction_dissipation", 1 + 3 * t), file.put_history("viscous_dissipation", t);
+    file.end_history_row();
+  }
+  file.close();
+  const auto findings = analyse(folder.path(), {});
+  EXPECT_DOUBLE_EQ(figure(findings, "energies", "kinetic_energy"), -2.0);
+  EXPECT_DOUBLE_EQ(figure(findings, "share of the dissipation", "friction"), 0.75);
+  EXPECT_DOUBLE_EQ(figure(findings, "share of the dissipation", "viscous"), 0.25);
+  EXPECT_EQ(table(findings, "energies").columns.size(), 4u) << "a count is no energy";
 }
 
 /// Exit code and output of the program.
