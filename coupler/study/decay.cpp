@@ -11,7 +11,8 @@ namespace coupler::study {
 namespace {
 
 constexpr std::size_t fewest_samples = 32;
-constexpr std::size_t shown = 3;  // modes of a record in the summary
+constexpr double periods_wanted = 2;  // of a mode in the record
+constexpr std::size_t shown = 3;      // modes of a record in the summary
 
 /// A vertical velocity that may decay freely.
 struct Decay {
@@ -93,7 +94,10 @@ void add_decay(const Decay& decay, double begin, const Options& options, const s
   analysis::RealisationOptions realisation;
   realisation.highest_frequency = std::min(options.highest_mode, 0.4 / decay.interval);
   const proto::Span<const double> free(decay.velocity.data() + first, n);
-  const auto modes = analysis::eigensystem_realisation(free, decay.interval, realisation);
+  auto modes = analysis::eigensystem_realisation(free, decay.interval, realisation);
+  const double lowest = periods_wanted / (decay.interval * static_cast<double>(n));
+  modes.erase(std::remove_if(modes.begin(), modes.end(), [&](const auto& mode) { return mode.frequency < lowest; }),
+              modes.end());
   for (std::size_t k = 0; k < std::min(shown, modes.size()); ++k) {
     const std::string name = fmt::format("{}, mode {}", decay.name, k + 1);
     findings.figures.push_back({group, name + ": frequency", modes[k].frequency, "Hz"});
@@ -113,7 +117,7 @@ void add_modes(const Run& run, const Options& options, Findings& findings) {
   const double begin = begin_of(run, options, decays.front());
   const double length = decays.front().time.back() - begin;
   const std::string group = fmt::format("modes from the decay after {:.4g} s, vertical velocity", begin);
-  if (length > 0) findings.figures.push_back({group, "two periods in the record from", 2 / length, "Hz"});
+  if (length > 0) findings.figures.push_back({group, "two periods in the record from", periods_wanted / length, "Hz"});
   for (const auto& decay : decays) add_decay(decay, begin, options, group, findings);
 }
 

@@ -38,7 +38,7 @@ std::string summary_text(const Findings& findings, const std::string& source, co
   for (const auto& figure : findings.figures) {
     if (figure.group != group) text += figure.group + "\n";
     group = figure.group;
-    text += fmt::format("  {:<58}{:>12.5g} {}\n", figure.name, figure.value, figure.unit == "1" ? "" : figure.unit);
+    text += fmt::format("  {:<66}{:>12.5g} {}\n", figure.name, figure.value, figure.unit == "1" ? "" : figure.unit);
   }
   for (const auto& note : findings.notes) text += fmt::format("note: {}\n", note);
   text += fmt::format("{} tables (CSV) and analysis.h5 in {}\n", findings.tables.size(), out);

@@ -107,16 +107,21 @@ std::string name_of(const std::vector<analysis::DepthBin>& bins, std::size_t b) 
                      bins[b].points.size());
 }
 
-/// Band means of a bin, as columns NAME, NAME_deviation, NAME_coherence; returns the first. The line at 0 never counts.
+/// Band means of a bin, as columns NAME, NAME_deviation, NAME_coherence and as figures; returns the first. The line at
+/// 0 never counts.
 double put_band(BandTable& table, const std::string& name, const BinResponse& response,
-                const std::vector<double>& frequency, const Band& band) {
+                const std::vector<double>& frequency, const Band& band, const Figure& label, Findings& findings) {
   const auto mean = [&](const std::vector<double>& values) {
     return analysis::band_mean(frequency, values, std::max(band.low, 0.5 * frequency[1]), band.high);
   };
-  table.put(name, "1", mean(response.mean));
+  const double magnitude = mean(response.mean), coherence = mean(response.coherence);
+  table.put(name, "1", magnitude);
   table.put(name + "_deviation", "1", mean(response.deviation));
-  table.put(name + "_coherence", "1", mean(response.coherence));
-  return mean(response.mean);
+  table.put(name + "_coherence", "1", coherence);
+  const std::string text = fmt::format("{}, {}: {:g} to {:g} Hz", label.name, name, band.low, band.high);
+  findings.figures.push_back({label.group, text, magnitude, "1"});
+  findings.figures.push_back({label.group, text + ", coherence", coherence, "1"});
+  return magnitude;
 }
 
 void note_short_record(double record, double resolution, Findings& findings) {
@@ -155,13 +160,10 @@ void add_transfer(const Run& run, const Options& options, Findings& findings) {
     lines.add(fmt::format("bin_{}_deviation", b + 1), "1", response.deviation);
     lines.add(fmt::format("bin_{}_coherence", b + 1), "1", response.coherence);
     bands.put_bin(bins[b]);
-    const double low = put_band(bands, "low", response, frequency, options.low);
-    const double high = put_band(bands, "high", response, frequency, options.high);
+    const Figure label{group, name_of(bins, b), 0.0, "1"};
+    const double low = put_band(bands, "low", response, frequency, options.low, label, findings);
+    const double high = put_band(bands, "high", response, frequency, options.high, label, findings);
     n_low_below_high += low < high ? 1 : 0;
-    const std::string bin = name_of(bins, b);
-    findings.figures.push_back({group, bin + fmt::format(", to {:g} Hz", options.low.high), low, "1"});
-    findings.figures.push_back(
-        {group, bin + fmt::format(", {:g} to {:g} Hz", options.high.low, options.high.high), high, "1"});
   }
   findings.figures.push_back({group, "depth bins in which low frequencies are absorbed more", n_low_below_high, "1"});
   findings.tables.push_back(std::move(lines));
