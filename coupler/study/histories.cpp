@@ -1,11 +1,11 @@
 // Histories and their spectra; the load.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
-#include "coupler/analysis/statistics.hpp"
 #include "coupler/study/analyses.hpp"
 #include "coupler/study/records.hpp"
 
@@ -122,7 +122,8 @@ void add_load(const Run& run, const Options&, Findings& findings) {
   findings.figures.push_back({group, "at that time", load.time[load.unloaded], "s"});
   if (!run.bottom) return;
   const auto& bottom = *run.bottom;
-  const auto row = static_cast<std::size_t>(std::llround(load.time[load.peak] / bottom.interval));
+  const auto at = std::lower_bound(bottom.time.begin(), bottom.time.end(), load.time[load.peak]);
+  const auto row = static_cast<std::size_t>(at - bottom.time.begin());
   if (row < fewest_samples || row + fewest_samples > bottom.n_samples()) {
     findings.notes.push_back(fmt::format(
         "loading and unloading: fewer than {} samples before or after the peak of the load", fewest_samples));

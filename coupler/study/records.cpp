@@ -54,6 +54,10 @@ void add_densities(const std::string& name, double interval, const std::vector<T
 
 std::optional<analysis::Segmentation> segmentation(std::size_t n_samples, double interval, const Options& options,
                                                    std::string& why) {
+  if (n_samples < 2 * fewest_samples) {
+    why = fmt::format("{} samples are too few", n_samples);
+    return std::nullopt;
+  }
   analysis::Segmentation cut;
   cut.window = options.window;
   cut.length = options.segment > 0 ? static_cast<std::size_t>(std::llround(options.segment / interval)) : n_samples / 2;
@@ -65,7 +69,7 @@ std::optional<analysis::Segmentation> segmentation(std::size_t n_samples, double
     return std::nullopt;
   }
   if (cut.length < fewest_samples) {
-    why = fmt::format("{} samples are too few, a segment would hold {}", n_samples, cut.length);
+    why = fmt::format("a segment would hold {} samples - give a longer --segment", cut.length);
     return std::nullopt;
   }
   return cut;

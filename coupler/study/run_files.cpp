@@ -89,8 +89,8 @@ proto::Attributes RunFiles::provenance() const {
 
 std::vector<SeatHistory> RunFiles::seats() const {
   std::vector<SeatHistory> seats;
-  if (!coupling_) return seats;
-  const auto n = coupling_->n_committed();
+  const auto n = coupling_ ? coupling_->n_committed() : 0;
+  if (n < 2) return seats;  // row 0 holds the initial values
   for (const auto& name : coupling_->members("/seats")) {
     const auto rows = [&](const std::string& column) {
       auto array = coupling_->read_rows("/seats/" + name + "/" + column, n);
@@ -108,7 +108,7 @@ std::vector<SeatHistory> RunFiles::seats() const {
       seat.sleeper.push_back(sleeper.mean_normal(row));
       seat.sleeper_velocity.push_back(velocity.mean_normal(row));
     }
-    if (n > 1) seat.force[0] = seat.force[1];  // row 0 holds initial values, no window went before
+    seat.force[0] = seat.force[1];  // no window went before
     seats.push_back(std::move(seat));
   }
   return seats;

@@ -172,6 +172,31 @@ TEST(AnalysisOfARun, ContactsAndEnergiesAreThere) {
   EXPECT_EQ(column(findings, "history_sensor_deep", "time").size(), 601u);
 }
 
+TEST(AnalysisOfARunThatWasStopped, GoesOnWithOneSample) {
+  const tests::TemporaryFolder folder;
+  proto::Attributes attributes = {{"layer.kind", std::string("stones")}, {"sleeper.kind", std::string("bottom")}};
+  for (const char* side : {"x_min_m", "y_min_m", "z_m"}) attributes.emplace_back(std::string("sleeper.") + side, 0.0);
+  for (const char* side : {"x_max_m", "y_max_m"}) attributes.emplace_back(std::string("sleeper.") + side, 1.0);
+  auto file = proto::TimeSeriesFile::create(folder.file("sensors.h5"),
+                                            {{"time", "s", "", {}},
+                                             {"layer/position", "m", "", {1, 3}},
+                                             {"layer/velocity", "m/s", "", {1, 3}},
+                                             {"sleeper/displacement", "m", "", {1, 1, 3}},
+                                             {"sleeper/velocity", "m/s", "", {1, 1, 3}}},
+                                            attributes);
+  const std::vector<double> below = {0.5, 0.5, -0.1};
+  file.put("time", 0.0), file.put("layer/position", below);
+  for (const char* name : {"layer/velocity", "sleeper/displacement", "sleeper/velocity"}) file.put(name, below);
+  file.end_row();
+  file.close();
+  Options options;
+  options.segment = 0.1;
+  const auto findings = analyse(folder.path(), options);
+  EXPECT_TRUE(notes(findings, "T(f,z): 1 samples are too few"));
+  EXPECT_TRUE(notes(findings, "spectra of bottom: 1 samples are too few"));
+  EXPECT_TRUE(notes(findings, "modes of bottom: 1 samples"));
+}
+
 TEST(EnergiesByName, SharesOfWhatDissipated) {
   const tests::TemporaryFolder folder;
   proto::FieldSeriesOptions options;
