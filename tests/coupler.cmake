@@ -26,6 +26,12 @@ house_test(coupler_convergence_test unit SOURCES unit/coupler_convergence.cpp LI
 house_test(coupler_record_test unit SOURCES unit/coupler_record.cpp
            LIBRARIES coupler::record nlohmann_json::nlohmann_json)
 
+house_test(analysis_spectrum_test unit SOURCES unit/analysis_spectrum.cpp LIBRARIES coupler::analysis)
+house_test(analysis_layer_test unit SOURCES unit/analysis_layer.cpp LIBRARIES coupler::analysis)
+house_test(analysis_run_test integration SOURCES integration/analysis_run.cpp
+           LIBRARIES coupler::study coupler::record qdem::participant TIMEOUT 120)
+add_dependencies(analysis_run_test coupler)
+
 # The whole chain; the first test builds the bed of the quick case.
 house_test(wheel_passage_test integration ALONE SOURCES integration/wheel_passage.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 1500)

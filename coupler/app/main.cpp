@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
-#include "coupler/app/options.hpp"
+#include "coupler/app/analyze_options.hpp"
 #include "coupler/launch/children.hpp"
 #include "coupler/launch/exec_child.hpp"
 #include "proto/case/coupling.hpp"
@@ -55,6 +55,8 @@ int command_line(int argc, char** argv) {
       ->check(CLI::Range(0, 1000));
   auto* converge = add_runner("converge", "run a case with H, H/2, H/4, ... and report the observed orders");
   converge->add_option("--levels", n_levels, "number of runs")->check(CLI::Range(3, 12))->capture_default_str();
+  coupler::AnalyzeOptions analysis;
+  const auto* analyze = coupler::add_analyze_command(app, analysis);
   auto* check = app.add_subcommand("check", "validate a case without running it");
   check->add_option("CASE", options.case_path, "case file (TOML)")->required();
   try {
@@ -65,6 +67,7 @@ int command_line(int argc, char** argv) {
     const int code = app.exit(error);
     return code == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
   }
+  if (analyze->parsed()) return coupler::analyze_run(analysis);
   if (converge->parsed()) return coupler::converge_case(options, n_levels);
   if (check->parsed()) return coupler::check_case(options.case_path);
   return options.resume.empty() ? coupler::run_case(options) : coupler::resume_run(options);

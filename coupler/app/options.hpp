@@ -4,6 +4,8 @@
 #include <set>
 #include <string>
 
+#include "coupler/study/options.hpp"
+
 namespace coupler {
 
 struct RunOptions {
@@ -30,6 +32,16 @@ int resume_run(const RunOptions& options);
 /// every seat's motion and force, and writes convergence.csv. Exit code as run_case(); throws proto::Error (numerics)
 /// when an order is more than 0.2 below that of the scheme. `n_levels` >= 3.
 int converge_case(const RunOptions& options, int n_levels);
+
+struct AnalyzeOptions {
+  std::string folder;  ///< of the run
+  std::string out;     ///< empty: `folder`/analysis
+  study::Options study;
+};
+
+/// Analyses a run, writes analysis.h5 and CSV files, prints the figures. Returns 0. Throws proto::Error (usage, missing_input,
+/// bad_data, cannot_create, io_error); an analysis whose records are missing is a note, not an error.
+int analyze_run(const AnalyzeOptions& options);
 
 /// Validates the case: the coupler's own and the common sections, then each participant's `check`.
 /// Returns 0, or the exit code of the participant that refused (which has said why on stderr). Throws proto::Error.

@@ -44,7 +44,7 @@ void HistoryGroup::continue_from(OutputFile& file, const ResultReader& source, s
   constexpr std::uint64_t rows_at_once = 4096;
   for (std::uint64_t first = 0; first < n_rows; first += rows_at_once) {
     n_pending_ = std::min(rows_at_once, n_rows - first);
-    for (Buffer& buffer : buffers_) buffer.values = source.read_range(path_of(buffer.name), first, n_pending_).values;
+    for (Buffer& buffer : buffers_) buffer.values = source.read_rows(path_of(buffer.name), first, n_pending_).values;
     file.write(pending_bytes(), [&] { write_pending(file), mark_committed(file); });
   }
 }

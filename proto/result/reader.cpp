@@ -99,7 +99,11 @@ ResultArray ResultReader::read(const std::string& dataset) const {
   return read_rows(dataset, dims.empty() ? 1 : dims[0]);
 }
 
-ResultArray ResultReader::read_range(const std::string& dataset, std::uint64_t first, std::uint64_t n_rows) const {
+ResultArray ResultReader::read_rows(const std::string& dataset, std::uint64_t n_rows) const {
+  return read_rows(dataset, 0, n_rows);
+}
+
+ResultArray ResultReader::read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t n_rows) const {
   const Handle source = data_->dataset(dataset);
   auto dims = extents(source.id());
   if (!dims.empty()) {
@@ -111,8 +115,8 @@ ResultArray ResultReader::read_range(const std::string& dataset, std::uint64_t f
   if (array.values.empty()) return array;
   const Handle target(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
   const Handle selected(H5Dget_space(source.id()), H5Sclose);
+  std::vector<hsize_t> start(dims.size(), 0);
   if (!dims.empty()) {
-    std::vector<hsize_t> start(dims.size(), 0);
     start[0] = first;
     H5Sselect_hyperslab(selected.id(), H5S_SELECT_SET, start.data(), nullptr, dims.data(), nullptr);
   }
@@ -120,6 +124,10 @@ ResultArray ResultReader::read_range(const std::string& dataset, std::uint64_t f
     data_->fail("cannot read (" + hdf5::last_error() + ") dataset", dataset);
   }
   return array;
+}
+
+bool ResultReader::has_attribute(const std::string& object, const std::string& attribute) const {
+  return H5Aexists_by_name(data_->file.id(), object.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;
 }
 
 double ResultReader::number(const std::string& object, const std::string& attribute) const {

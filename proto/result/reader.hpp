@@ -34,11 +34,10 @@ class ResultReader {
   /// Whole dataset.
   ResultArray read(const std::string& dataset) const;
   /// Only its first `n_rows` rows: pass n_committed().
-  ResultArray read_rows(const std::string& dataset, std::uint64_t n_rows) const {
-    return read_range(dataset, 0, n_rows);
-  }
-  /// Rows [first, first + n_rows).
-  ResultArray read_range(const std::string& dataset, std::uint64_t first, std::uint64_t n_rows) const;
+  ResultArray read_rows(const std::string& dataset, std::uint64_t n_rows) const;
+  /// Rows [first, first + n): one step of a field that is too large to be read whole.
+  ResultArray read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t n) const;
+  bool has_attribute(const std::string& object, const std::string& attribute) const;
   /// Attribute of a dataset or group; `number` also reads integers.
   double number(const std::string& object, const std::string& attribute) const;
   std::string text(const std::string& object, const std::string& attribute) const;

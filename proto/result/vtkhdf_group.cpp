@@ -129,10 +129,10 @@ void VtkHdfGroup::write_static_field(OutputFile& file, const StaticField& field)
 
 void VtkHdfGroup::continue_from(OutputFile& file, const ResultReader& source, std::uint64_t n_steps) {
   for (std::uint64_t step = 0; step < n_steps; ++step) {
-    begin_step(source.read_range("/VTKHDF/Steps/Values", step, 1).values.front());
+    begin_step(source.read_rows("/VTKHDF/Steps/Values", step, 1).values.front());
     for (const Slot& slot : slots_) {
       const std::string name = "/VTKHDF/" + data_group(slot.column.location) + "/" + slot.column.name;
-      const auto values = source.read_range(name, step * slot.n_rows, slot.n_rows).values;
+      const auto values = source.read_rows(name, step * slot.n_rows, slot.n_rows).values;
       put(slot.column.name, std::vector<float>(values.begin(), values.end()));
     }
     file.write(step_bytes(), [&] { write_step(file), mark_committed(file); });

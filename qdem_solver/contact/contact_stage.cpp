@@ -3,6 +3,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -216,6 +217,27 @@ ContactReport ContactStage::report(const State& state) const {
   }
   if (n_stones > 0) report.coordination_number /= n_stones;
   return report;
+}
+
+std::vector<PairForce> ContactStage::pair_forces(const State& state) const {
+  const Data& d = *data_;
+  if (d.list_id != state.contact.list_id) return {};
+  std::map<std::pair<int, int>, PairForce> pairs;
+  for (const std::int64_t i : d.live.all()) {
+    const ContactKey& key = state.contact.keys[i];
+    const EntryForce& entry = d.forces[i];
+    Eigen::Vector3d on_a = Eigen::Vector3d::Zero();
+    for (int k = 0; k < entry.n_a; ++k) on_a += entry.force_a[k];
+    const bool in_order = key.is_plane() || key.body_a < key.body_b;
+    const auto [a, b] = in_order ? std::make_pair(key.body_a, key.body_b) : std::make_pair(key.body_b, key.body_a);
+    PairForce& pair = pairs[{a, b}];
+    pair.body_a = a, pair.body_b = b;
+    pair.force_a += in_order ? on_a : Eigen::Vector3d(-on_a);
+    ++pair.n_contacts;
+  }
+  std::vector<PairForce> result;
+  for (const auto& entry : pairs) result.push_back(entry.second);
+  return result;
 }
 
 }  // namespace qdem

@@ -19,6 +19,13 @@ struct ContactReport {
   double elastic_energy = 0.0;       ///< normal and tangential springs [J]
 };
 
+/// Resultant of all contacts between two bodies.
+struct PairForce {
+  int body_a = 0, body_b = 0;                         ///< a < b; b < 0: plane ~b
+  int n_contacts = 0;                                 ///< places at which they touch
+  Eigen::Vector3d force_a = Eigen::Vector3d::Zero();  ///< on a; minus it acts on b [N]
+};
+
 /// Upper bounds of what contacts add to one body.
 struct ContactRates {
   Rates particle;  ///< largest row sums over its particles
@@ -55,6 +62,9 @@ class ContactStage {
   std::vector<ContactRates> rates(const State& state, double gap) const;
 
   ContactReport report(const State& state) const;
+
+  /// The pairs that touch in `state`, whose forces were computed last; ascending by (a, b).
+  std::vector<PairForce> pair_forces(const State& state) const;
 
  private:
   struct Data;

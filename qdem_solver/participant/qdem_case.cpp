@@ -141,6 +141,7 @@ QdemCase read_qdem_case(const proto::CaseFile& file) {
   read_materials(section, result.physics);
   read_contact(section.section("contact"), result.physics);
   result.sensors = read_sensors(section);
+  result.contact_output = section.boolean_or("contact_output", false);
   result.run = read_run(section.section("run"));
   section.finish();
   return result;

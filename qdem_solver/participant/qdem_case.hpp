@@ -24,12 +24,13 @@ struct QdemCase {
   int threads = 0;                  ///< 0: as many as the environment gives
   double initialise_damping = 0.5;  ///< Cundall's damping in the initialise phase [-]
   SensorsSettings sensors;
+  bool contact_output = false;  ///< contacts.h5 beside every output of the fields
   RunAlone run;
 };
 
 /// Reads
 ///   [qdem] particle_interaction ("quadruple", "bond"), step_safety, largest_step_s, threads, gravity_m_per_s2,
-///     initialise_damping, sensor_interval_s
+///     initialise_damping, sensor_interval_s, contact_output
 ///   [[qdem.sensor]] (sensors/sensor_settings.hpp)
 ///   [[qdem.material]] name ("stone", "sleeper"; both once), young_pa, poisson, density_kg_per_m3, and one of
 ///     retardation_time_s; loss_factor with loss_factor_frequency_hz; lame_viscosity_pa_s with shear_viscosity_pa_s

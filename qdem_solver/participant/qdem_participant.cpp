@@ -133,7 +133,8 @@ void QdemParticipant::open_files() {
   const auto attributes = bed_->attributes(file_);
   if (output_interval_ > 0) {
     fields_ = std::make_unique<FieldsFile>(out_ + "/qdem.h5", bed_->model(), bed_->state(), attributes);
-    fields_->write(0.0, bed_->state(), bed_->engine());
+    if (bed_->settings().contact_output) contacts_ = std::make_unique<ContactsFile>(out_ + "/contacts.h5", attributes);
+    write_fields(0.0);
   }
   const SensorsSettings& sensors = bed_->settings().sensors;
   if (sensors.list.empty()) return;
@@ -141,12 +142,17 @@ void QdemParticipant::open_files() {
   sensors_->look(0.0, bed_->state(), bed_->engine().contacts());
 }
 
+void QdemParticipant::write_fields(double time) {
+  fields_->write(time, bed_->state(), bed_->engine());
+  if (contacts_) contacts_->write(time, bed_->state(), bed_->engine().contacts());
+}
+
 void QdemParticipant::commit(const proto::Commit& request) {
   committed_step_ = bed_->largest_step();
   if (!marching_) return;
   const double time = static_cast<double>(request.window + 1) * window_s_;
   if (sensors_) sensors_->look(time, bed_->state(), bed_->engine().contacts());
-  if (fields_ && output_is_due(request.window)) fields_->write(time, bed_->state(), bed_->engine());
+  if (fields_ && output_is_due(request.window)) write_fields(time);
 }
 
 void QdemParticipant::rollback(const proto::Rollback&) {
@@ -188,6 +194,11 @@ std::uint64_t QdemParticipant::save(const proto::Save& request) {
     auto n_steps = fields_->n_steps();
     archive("fields/steps", n_steps);
   }
+  if (contacts_) {
+    contacts_->synchronise();
+    auto n_rows = contacts_->n_rows();
+    archive("contacts/rows", n_rows);
+  }
   if (sensors_) {
     sensors_->synchronise();
     sensors_->exchange(archive);
@@ -212,6 +223,11 @@ void QdemParticipant::resume_files(proto::StateArchive& saved) {
     fields_ =
         std::make_unique<FieldsFile>(FieldsFile::resume(out_ + "/qdem.h5", bed_->model(), start, attributes, n_steps));
   }
+  if (fields_ && bed_->settings().contact_output) {
+    std::uint64_t n_rows = 0;
+    saved("contacts/rows", n_rows);
+    contacts_ = std::make_unique<ContactsFile>(ContactsFile::resume(out_ + "/contacts.h5", attributes, n_rows));
+  }
   const SensorsSettings& sensors = bed_->settings().sensors;
   if (!sensors.list.empty())
     sensors_ = std::make_unique<SensorFile>(out_ + "/sensors.h5", sensors, bed_->model(), start, attributes, saved);
@@ -222,7 +238,8 @@ std::vector<proto::Fact> QdemParticipant::finish() {
   if (marching_) exchange(end);
   if (fields_) fields_->close();
   if (sensors_) sensors_->close();
-  fields_.reset(), sensors_.reset();
+  if (contacts_) contacts_->close();
+  fields_.reset(), contacts_.reset(), sensors_.reset();
   const auto contacts = bed_->engine().contacts().report(bed_->state());
   return {{"qdem.end.state_hash", std::nullopt, fmt::format("{:016x}", end.hash())},
           {"qdem.end.coordination_number", contacts.coordination_number, {}},

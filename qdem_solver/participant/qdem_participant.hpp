@@ -8,6 +8,7 @@
 
 #include "proto/case/case_file.hpp"
 #include "proto/session/participant.hpp"
+#include "qdem_solver/output/contacts_file.hpp"
 #include "qdem_solver/output/fields_file.hpp"
 #include "qdem_solver/participant/track_bed.hpp"
 #include "qdem_solver/sensors/sensor_file.hpp"
@@ -50,6 +51,7 @@ class QdemParticipant : public proto::Participant {
   /// Everything but the files' own counts.
   void exchange(proto::StateArchive& archive);
   State start_state() const;
+  void write_fields(double time);
   bool output_is_due(std::int64_t window) const;
 
   proto::CaseFile file_;
@@ -58,6 +60,7 @@ class QdemParticipant : public proto::Participant {
   proto::Progress* progress_ = nullptr;
   std::unique_ptr<TrackBed> bed_;
   std::unique_ptr<FieldsFile> fields_;
+  std::unique_ptr<ContactsFile> contacts_;
   std::unique_ptr<SensorFile> sensors_;
   State before_window_;
   double window_s_ = 0.0, output_interval_ = 0.0;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "proto/error.hpp"
+#include "qdem_solver/output/contacts_file.hpp"
 #include "qdem_solver/output/fields_file.hpp"
 #include "qdem_solver/sensors/sensor_file.hpp"
 
@@ -49,6 +50,7 @@ class OutputClock {
     if (interval_ > 0) {
       path_ = out + "/qdem.h5";
       fields_.emplace(path_, bed.model(), bed.state(), attributes);
+      if (bed.settings().contact_output) contacts_.emplace(out + "/contacts.h5", attributes);
     }
     const SensorsSettings& sensors = bed.settings().sensors;
     if (!sensors.list.empty()) sensors_.emplace(out + "/sensors.h5", sensors, bed.model(), bed.state(), attributes);
@@ -66,11 +68,13 @@ class OutputClock {
     if (sensors_) sensors_->look(time, bed_.state(), bed_.engine().contacts());
     if (!fields_ || time < static_cast<double>(n_written_) * interval_ * (1 - 1e-9)) return;
     fields_->write(time, bed_.state(), bed_.engine());
+    if (contacts_) contacts_->write(time, bed_.state(), bed_.engine().contacts());
     ++n_written_;
   }
   std::string close() {
     if (fields_) fields_->close();
     if (sensors_) sensors_->close();
+    if (contacts_) contacts_->close();
     return path_;
   }
 
@@ -81,6 +85,7 @@ class OutputClock {
   std::string path_;
   std::optional<FieldsFile> fields_;
   std::optional<SensorFile> sensors_;
+  std::optional<ContactsFile> contacts_;
 };
 
 void add_end_state(TrackBed& bed, RunFigures& figures) {

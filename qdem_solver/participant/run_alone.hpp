@@ -25,7 +25,7 @@ struct RunFigures {
 
 /// Integrates the bed of `file` for [qdem.run] duration_s, damping off. With a load, every pad cell is pressed with its
 /// share (by stiffness) of the force of [qdem.run.load]; along the other axes the rail foot
-/// follows the sleeper. Writes `out`/qdem.h5 at multiples of output_interval_s, `out`/sensors.h5 at those of
+/// follows the sleeper. Writes `out`/qdem.h5 at multiples of output_interval_s (and contacts.h5 where the case wants it), `out`/sensors.h5 at those of
 /// sensor_interval_s.
 /// `report(time)` is called now and then. Throws as TrackBed, and proto::Error (numerics).
 RunFigures run_alone(const proto::CaseFile& file, const BedSource& source, const std::string& out,

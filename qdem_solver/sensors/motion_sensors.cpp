@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "proto/error.hpp"
+#include "qdem_solver/sensors/mass_mean.hpp"
 #include "qdem_solver/sensors/sensor.hpp"
 #include "qdem_solver/state/rigid_fit.hpp"
 
@@ -46,14 +47,6 @@ class MotionColumns {
   std::string name_;
   Vector3d start_, before_ = Vector3d::Zero();
 };
-
-Vector3d mass_mean(const Model& model, const std::vector<double>& values, int body) {
-  Vector3d sum = Vector3d::Zero();
-  for (int i = 0; i < model.shape(body).n_nodes(); ++i) {
-    sum += model.node_mass(body, i) * State::gather(model, values, body, i);
-  }
-  return sum / model.body_mass(body);
-}
 
 class StoneSensor : public Sensor {
  public:

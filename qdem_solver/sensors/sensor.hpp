@@ -38,6 +38,16 @@ std::unique_ptr<Sensor> make_particle_sensor(const SensorSettings& settings, con
 
 /// Sensing sleeper: mean upward contact pressure on each cell of its bottom. Every contact force on a bottom particle
 /// belongs to the cell under it, in equal parts where cells meet: the cells' forces sum up to the whole.
-std::unique_ptr<Sensor> make_pressure_sensor(const SensorSettings& settings, const Model& model);
+std::unique_ptr<Sensor> make_pressure_sensor(const SensorSettings& settings, const Model& model,
+                                             const State& reference);
+
+/// Position and velocity of every stone's centre of mass, for spectra over the whole layer. Accelerations follow from
+/// the velocities; they would make the file half as large again. Throws proto::Error (bad_data) where there is no
+/// stone.
+std::unique_ptr<Sensor> make_stones_sensor(const SensorSettings& settings, const Model& model);
+
+/// Mean displacement and velocity of each cell of the sleeper's bottom.
+/// Throws proto::Error (bad_data) for a cell without particles.
+std::unique_ptr<Sensor> make_bottom_sensor(const SensorSettings& settings, const Model& model, const State& reference);
 
 }  // namespace qdem

@@ -11,8 +11,12 @@ std::unique_ptr<Sensor> make_sensor(const SensorSettings& settings, const Model&
       return make_stone_sensor(settings, model, reference);
     case SensorKind::particle:
       return make_particle_sensor(settings, model, reference);
+    case SensorKind::stones:
+      return make_stones_sensor(settings, model);
+    case SensorKind::bottom:
+      return make_bottom_sensor(settings, model, reference);
     default:
-      return make_pressure_sensor(settings, model);
+      return make_pressure_sensor(settings, model, reference);
   }
 }
 
@@ -24,6 +28,7 @@ std::vector<proto::Column> SensorFile::make_sensors(const SensorsSettings& setti
   for (const SensorSettings& sensor : settings.list) {
     sensors_.push_back(make_sensor(sensor, model, reference));
     for (auto& column : sensors_.back()->columns()) columns.push_back(std::move(column));
+    attributes.emplace_back(sensor.name + ".kind", std::string(name_of(sensor.kind)));
     for (auto& fact : sensors_.back()->place()) attributes.push_back(std::move(fact));
   }
   return columns;

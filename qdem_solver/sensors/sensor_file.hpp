@@ -10,7 +10,7 @@
 namespace qdem {
 
 /// All sensors of a case, sampled together. A history file (proto/result/time_series.hpp) with the column `time` and
-/// a group for every sensor.
+/// a group for every sensor; attributes `<name>.kind` and where it sits.
 class SensorFile {
  public:
   /// Creates `path`; displacements count from `reference`. `model` must outlive the object.

@@ -254,7 +254,7 @@ std::vector<double> column(const CoupledRun& run, const std::string& file, const
 TEST(ResumeOfTheSolvers, GivesTheSameStateAndRecords) {
   setenv("QDEM_BED_CACHE", HOUSE_BIN_DIR "/../test_beds", 1);
   auto text = real_case();
-  text.replace(text.find("[qdem]\n"), 7, "[qdem]\nsensor_interval_s = 2e-4\n");
+  text.replace(text.find("[qdem]\n"), 7, "[qdem]\nsensor_interval_s = 2e-4\ncontact_output = true\n");
   CoupledRun whole(text), broken(text);
   whole.start({"run", whole.case_path(), "--out", whole.out(), "--threads", "1"});
   ASSERT_EQ(whole.wait(200.0).value_or(-1), 0) << whole.message();
@@ -274,6 +274,7 @@ TEST(ResumeOfTheSolvers, GivesTheSameStateAndRecords) {
     EXPECT_EQ(column(whole, "qdem.h5", name), column(broken, "qdem.h5", name)) << name;
   for (const char* name : {"/VTKHDF/PointData/velocity", "/TimeSeries/wheel/contact_force"})
     EXPECT_EQ(column(whole, "fem.h5", name), column(broken, "fem.h5", name)) << name;
+  EXPECT_EQ(column(whole, "contacts.h5", "force"), column(broken, "contacts.h5", "force"));
   EXPECT_EQ(column(whole, "sensors.h5", "stone/acceleration"), column(broken, "sensors.h5", "stone/acceleration"));
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "proto/error.hpp"
+#include "proto/result/array_file.hpp"
 #include "proto/result/provenance.hpp"
 #include "proto/result/reader.hpp"
 #include "proto/result/text_file.hpp"
@@ -198,6 +199,23 @@ TEST(TextFile, IsWholeOrAsBefore) {
   EXPECT_FALSE(std::filesystem::exists(path + ".tmp"));
   EXPECT_EQ(code_of([&] { proto::write_text_file(folder.file("no/summary.json"), "x"); }),
             proto::ExitCode::cannot_create);
+}
+
+TEST(ArrayFile, HoldsArraysWithTheirUnits) {
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("arrays.h5");
+  proto::write_array_file(path, {{"a/x", "m", "place", {1, 2, 3, 4}}, {"a/none", "1", "", {}}},
+                          {{"who", std::string("me")}});
+  const proto::ResultReader reader(path);
+  EXPECT_EQ(reader.read("/a/x").values, (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(reader.read_rows("/a/x", 1, 2).values, (std::vector<double>{2, 3}));
+  EXPECT_THROW(reader.read_rows("/a/x", 3, 2), proto::Error);
+  EXPECT_EQ(reader.text("/a/x", "units"), "m");
+  EXPECT_EQ(reader.text("/a/x", "description"), "place");
+  EXPECT_TRUE(reader.read("/a/none").values.empty());
+  EXPECT_TRUE(reader.has_attribute("/", "who"));
+  EXPECT_FALSE(reader.has_attribute("/", "whom"));
+  EXPECT_THROW(proto::write_array_file(folder.file("no/such/folder.h5"), {}, {}), proto::Error);
 }
 
 }  // namespace

@@ -1,0 +1,110 @@
+#include "coupler/study/stone_mesh.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace coupler::study {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The tetrahedra of qdem.h5 with what is needed of them.
+struct Mesh {
+  explicit Mesh(const proto::ResultReader& qdem)
+      : points(qdem.read("/VTKHDF/Points").values),
+        corners(qdem.read("/VTKHDF/Connectivity").values),
+        body(qdem.read("/VTKHDF/CellData/body").values),
+        sleeper(qdem.read("/VTKHDF/CellData/sleeper").values) {}
+
+  std::size_t n_cells() const { return body.size(); }
+  std::size_t corner(std::size_t cell, int k) const { return static_cast<std::size_t>(corners[4 * cell + k]); }
+  Vector3d point(std::size_t i) const { return Vector3d(points[3 * i], points[3 * i + 1], points[3 * i + 2]); }
+  double volume(std::size_t cell) const {
+    const Vector3d a = point(corner(cell, 0));
+    const Vector3d p = point(corner(cell, 1)) - a, q = point(corner(cell, 2)) - a, r = point(corner(cell, 3)) - a;
+    return p.cross(q).dot(r) / 6;
+  }
+
+  std::vector<double> points, corners, body, sleeper;
+};
+
+}  // namespace
+
+std::optional<analysis::Footprint> sleeper_box(const proto::ResultReader& qdem) {
+  const Mesh mesh(qdem);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vector3d low = Vector3d::Constant(infinity), high = -low;
+  for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
+    if (mesh.sleeper[cell] == 0) continue;
+    for (int k = 0; k < 4; ++k) {
+      const Vector3d x = mesh.point(mesh.corner(cell, k));
+      low = low.cwiseMin(x), high = high.cwiseMax(x);
+    }
+  }
+  if (!(low[0] < high[0])) return std::nullopt;
+  return analysis::Footprint{low[0], high[0], low[1], high[1], low[2]};
+}
+
+StoneMesh::StoneMesh(const proto::ResultReader& qdem) {
+  const Mesh mesh(qdem);
+  std::map<double, std::int64_t> numbers;  // of a body among the stones
+  in_stone_.resize(mesh.n_cells());
+  for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
+    in_stone_[cell] = mesh.sleeper[cell] == 0;
+    if (in_stone_[cell]) numbers[mesh.body[cell]] = 0;
+  }
+  std::int64_t next = 0;
+  for (auto& number : numbers) number.second = next++;
+  stone_of_.assign(mesh.points.size() / 3, -1);
+  share_.assign(stone_of_.size(), 0.0);
+  std::vector<double> volume(numbers.size(), 0.0);
+  std::size_t n_cells = 0;
+  for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
+    if (!in_stone_[cell]) continue;
+    const auto stone = numbers[mesh.body[cell]];
+    const double v = mesh.volume(cell);
+    for (int k = 0; k < 4; ++k) stone_of_[mesh.corner(cell, k)] = stone, share_[mesh.corner(cell, k)] += v / 4;
+    volume[static_cast<std::size_t>(stone)] += v;
+    element_size_ += std::cbrt(6 * std::sqrt(2.0) * v);
+    ++n_cells;
+  }
+  if (n_cells > 0) element_size_ /= static_cast<double>(n_cells);
+  for (std::size_t i = 0; i < share_.size(); ++i) {
+    if (stone_of_[i] >= 0) share_[i] /= volume[static_cast<std::size_t>(stone_of_[i])];
+  }
+  places_.resize(numbers.size());
+  const auto mean = centres(mesh.points);
+  for (std::size_t i = 0; i < mean.size(); ++i) places_[i / 3][i % 3] = mean[i];
+}
+
+std::vector<double> StoneMesh::centres(const std::vector<double>& values) const {
+  std::vector<double> result(3 * n_stones(), 0.0);
+  for (std::size_t i = 0; i < stone_of_.size(); ++i) {
+    if (stone_of_[i] < 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      result[3 * static_cast<std::size_t>(stone_of_[i]) + c] += share_[i] * values[3 * i + c];
+    }
+  }
+  return result;
+}
+
+std::vector<double> StoneMesh::displacement(const proto::ResultReader& qdem, std::uint64_t step) const {
+  const std::uint64_t n = stone_of_.size();
+  return centres(qdem.read_rows("/VTKHDF/PointData/displacement", step * n, n).values);
+}
+
+double StoneMesh::largest_stress(const proto::ResultReader& qdem, std::uint64_t step) const {
+  const std::uint64_t n = in_stone_.size();
+  const auto stress = qdem.read_rows("/VTKHDF/CellData/von_mises_stress", step * n, n).values;
+  double largest = 0.0;
+  for (std::size_t cell = 0; cell < n; ++cell) {
+    if (in_stone_[cell]) largest = std::max(largest, stress[cell]);
+  }
+  return largest;
+}
+
+}  // namespace coupler::study
