@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <vector>
 
 namespace qdem::bench {
@@ -33,17 +34,19 @@ multiply_add(std::int64_t n, double factor, double addend) {
   return total;
 }
 
+constexpr std::int64_t n_loops = 2'000'000;
+constexpr double flops_of_loops = 2.0 * 8 * n_accumulators * n_loops;
+
 double flop_rate(int threads) {
-  constexpr std::int64_t n = 4'000'000;
   double best = 0.0;
   volatile double sink = 0.0;
   for (int round = 0; round < rounds; ++round) {
     const auto start = std::chrono::steady_clock::now();
     double total = 0.0;
 #pragma omp parallel num_threads(threads) reduction(+ : total)
-    total += multiply_add(n, 0.999, 1e-3);
+    total += multiply_add(n_loops, 0.999, 1e-3);
     sink = total;
-    best = std::max(best, 2.0 * 8 * n_accumulators * n * threads / seconds_since(start));
+    best = std::max(best, flops_of_loops * threads / seconds_since(start));
   }
   static_cast<void>(sink);
   return best;
@@ -66,6 +69,13 @@ double triad_rate(int threads) {
 
 MachineRates machine_rates(int threads) {
   return {flop_rate(threads), triad_rate(threads)};
+}
+
+double core_flop_rate() {
+  const std::clock_t start = std::clock();
+  volatile double sink = multiply_add(n_loops, 0.999, 1e-3);
+  static_cast<void>(sink);
+  return flops_of_loops * CLOCKS_PER_SEC / static_cast<double>(std::clock() - start);
 }
 
 }  // namespace qdem::bench

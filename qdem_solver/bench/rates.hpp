@@ -5,14 +5,18 @@
 
 namespace qdem::bench {
 
-/// Best of several rounds, by the wall clock and by the CPU time of all threads together: on a busy machine only the
+/// Best of many short rounds, by the wall clock and by the CPU time of all threads together: on a busy machine only the
 /// second says something about the code.
 struct Rate {
   double wall = 0.0, cpu = 0.0;  ///< [1/s]
+  double flops = 0.0;            ///< core_flop_rate() between the rounds, the best too [1/s]
 };
 
 /// Whole steps a second, so small that the scene stays where it is: the cost of a step does not depend on its length.
 Rate step_rate(Scene& scene, int threads, int n_steps);
+
+/// Rate of two threads over that of one by the wall clock, their rounds in turn.
+double two_thread_speedup(Scene& scene, int n_steps);
 
 struct ContactCost {
   std::int64_t live = 0;           ///< contacts that carry a force
