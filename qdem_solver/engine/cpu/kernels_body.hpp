@@ -96,21 +96,18 @@ inline void read_records(const BlockForces& job) {
 /// Element numbers come from memory: asked for so many groups before they are needed.
 constexpr int groups_ahead = 6;
 
-template <class Law>
-__attribute__((flatten)) void block_forces(const BlockForces& job) {
-  using Force = typename Law::Force;
+/// Calls `visit` with dx, dv, shape, weight and corners of so many elements of a block at a time as a vector has lanes.
+template <class Force, class Visit>
+inline void for_each_group(const BlockForces& job, Visit visit) {
   constexpr int n_particles = Force::n_particles, others = n_particles - 1, n_shape = Force::n_shape;
   read_records(job);
-  for (int i = 0; i < 4 * job.n_copies; ++i) job.slots[i] = 0.0;
-  const Force force = Law::force(Vector{} + job.scale, job.material);
   const double* __restrict records = job.records;
-  double* __restrict slots = job.slots;
   const std::uint16_t* corners = job.corners;
   const double* numbers = job.numbers;
   for (int group = 0; group < job.n_groups; ++group) {
     for (int i = 0; i <= n_shape; ++i) __builtin_prefetch(numbers + (i + groups_ahead * (n_shape + 1)) * lanes);
     for (int lane = 0; lane < lanes; lane += width) {
-      Vector first[6], other[6], dx[3 * others], dv[3 * others], shape[n_shape], f[3 * n_particles];
+      Vector first[6], other[6], dx[3 * others], dv[3 * others], shape[n_shape];
       for (int i = 0; i < 3; ++i) read_pair(records, corners + lane, i, first);
 #pragma GCC unroll 3
       for (int k = 0; k < others; ++k) {
@@ -118,15 +115,29 @@ __attribute__((flatten)) void block_forces(const BlockForces& job) {
         for (int c = 0; c < 3; ++c) dx[3 * k + c] = other[c] - first[c], dv[3 * k + c] = other[3 + c] - first[3 + c];
       }
       for (int i = 0; i < n_shape; ++i) shape[i] = load(numbers + i * lanes + lane);
-      force(dx, dv, shape, load(numbers + n_shape * lanes + lane), f + 3);
-      for (int c = 0; c < 3; ++c) f[c] = -sum_of<others>(f + 3, c);
-#pragma GCC unroll 4
-      for (int k = 0; k < n_particles; ++k) {
-        add_lanes(slots, corners + k * lanes + lane, f + 3 * k, std::make_integer_sequence<int, width>());
-      }
+      visit(dx, dv, shape, load(numbers + n_shape * lanes + lane), corners + lane);
     }
     corners += n_particles * lanes, numbers += (n_shape + 1) * lanes;
   }
+}
+
+template <class Law>
+__attribute__((flatten)) void block_forces(const BlockForces& job) {
+  using Force = typename Law::Force;
+  constexpr int n_particles = Force::n_particles, others = n_particles - 1;
+  const Force force = Law::force(Vector{} + job.scale, job.material);
+  double* __restrict slots = job.slots;
+  for (int i = 0; i < 4 * job.n_copies; ++i) slots[i] = 0.0;
+  for_each_group<Force>(
+      job, [&](const Vector* dx, const Vector* dv, const Vector* shape, Vector weight, const std::uint16_t* corners) {
+        Vector f[3 * n_particles];
+        force(dx, dv, shape, weight, f + 3);
+        for (int c = 0; c < 3; ++c) f[c] = -sum_of<others>(f + 3, c);
+#pragma GCC unroll 4
+        for (int k = 0; k < n_particles; ++k) {
+          add_lanes(slots, corners + k * lanes, f + 3 * k, std::make_integer_sequence<int, width>());
+        }
+      });
 }
 
 DriftResult drift(const Drift& job) {
