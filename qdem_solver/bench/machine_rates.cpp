@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <ctime>
 #include <vector>
 
 namespace qdem::bench {
@@ -34,19 +33,19 @@ multiply_add(std::int64_t n, double factor, double addend) {
   return total;
 }
 
-constexpr std::int64_t n_loops = 2'000'000;
-constexpr double flops_of_loops = 2.0 * 8 * n_accumulators * n_loops;
+constexpr double flops_of_a_loop = 2.0 * 8 * n_accumulators;
 
 double flop_rate(int threads) {
+  constexpr std::int64_t n = 4'000'000;
   double best = 0.0;
   volatile double sink = 0.0;
   for (int round = 0; round < rounds; ++round) {
     const auto start = std::chrono::steady_clock::now();
     double total = 0.0;
 #pragma omp parallel num_threads(threads) reduction(+ : total)
-    total += multiply_add(n_loops, 0.999, 1e-3);
+    total += multiply_add(n, 0.999, 1e-3);
     sink = total;
-    best = std::max(best, flops_of_loops * threads / seconds_since(start));
+    best = std::max(best, flops_of_a_loop * n * threads / seconds_since(start));
   }
   static_cast<void>(sink);
   return best;
@@ -72,10 +71,11 @@ MachineRates machine_rates(int threads) {
 }
 
 double core_flop_rate() {
-  const std::clock_t start = std::clock();
-  volatile double sink = multiply_add(n_loops, 0.999, 1e-3);
+  constexpr std::int64_t n = 150'000;
+  const auto start = std::chrono::steady_clock::now();
+  volatile double sink = multiply_add(n, 0.999, 1e-3);
   static_cast<void>(sink);
-  return flops_of_loops * CLOCKS_PER_SEC / static_cast<double>(std::clock() - start);
+  return flops_of_a_loop * n / seconds_since(start);
 }
 
 }  // namespace qdem::bench

@@ -11,7 +11,7 @@ struct MachineRates {
 /// Best of several rounds by the wall clock, all `threads` at once.
 MachineRates machine_rates(int threads);
 
-/// MachineRates::flops of one core in one short round, by its CPU time.
+/// MachineRates::flops of one core in one round of half a millisecond or so.
 double core_flop_rate();
 
 }  // namespace qdem::bench

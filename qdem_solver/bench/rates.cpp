@@ -14,8 +14,7 @@
 namespace qdem::bench {
 namespace {
 
-constexpr int rounds = 20;
-constexpr int wall_rounds = 200;    ///< enough that some are left alone by whatever else runs
+constexpr int rounds = 200;
 constexpr double tiny_step = 1e-8;  // [s]
 
 class Clock {
@@ -30,28 +29,27 @@ class Clock {
 
 }  // namespace
 
-Rate step_rate(Scene& scene, int threads, int n_steps) {
-  Engine engine(scene.model, {threads});
+Rate step_rate(Scene& scene, int n_rounds) {
+  Engine engine(scene.model, {1});
   engine.prepare(scene.state);
   Rate best;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < n_rounds; ++round) {
     const double flops = core_flop_rate();
     const Clock clock;
-    engine.advance(scene.state, tiny_step, n_steps);
-    best = {std::max(best.wall, n_steps / clock.wall()), std::max(best.cpu, n_steps / clock.cpu()),
-            std::max(best.flops, flops)};
+    engine.advance(scene.state, tiny_step, 1);
+    best = {std::max(best.wall, 1 / clock.wall()), std::max(best.cpu, 1 / clock.cpu()), std::max(best.flops, flops)};
   }
   return best;
 }
 
-double two_thread_speedup(Scene& scene, int n_steps) {
+double two_thread_speedup(Scene& scene) {
   double time[2] = {1e9, 1e9};
   Engine engines[2] = {Engine(scene.model, {1}), Engine(scene.model, {2})};
   engines[0].prepare(scene.state);
-  for (int round = 0; round < wall_rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     for (int i = 0; i < 2; ++i) {
       const Clock clock;
-      engines[i].advance(scene.state, tiny_step, n_steps);
+      engines[i].advance(scene.state, tiny_step, 1);
       time[i] = std::min(time[i], clock.wall());
     }
   }
@@ -59,7 +57,6 @@ double two_thread_speedup(Scene& scene, int n_steps) {
 }
 
 ContactCost contact_cost(const Scene& scene) {
-  constexpr int repeats = 50;
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
   ContactCost cost;
@@ -70,18 +67,16 @@ ContactCost contact_cost(const Scene& scene) {
     state.contact.list_id = 0;
     const Clock clock;
     stage.update_candidates(state);
-    cost.candidates_time_s = std::min(cost.candidates_time_s, clock.cpu());
+    cost.candidates_time_s = std::min(cost.candidates_time_s, clock.wall());
   }
   std::vector<double> force(state.x.size(), 0.0);
   stage.compute(state, 0.0);
   cost.live = stage.report(state).live;
   for (int round = 0; round < rounds; ++round) {
     const Clock clock;
-    for (int i = 0; i < repeats; ++i) {
-      stage.compute(state, 0.0);
-      for (int body = 0; body < static_cast<int>(scene.model.bodies.size()); ++body) stage.gather(body, force);
-    }
-    cost.pairs_per_s = std::max(cost.pairs_per_s, static_cast<double>(cost.live) * repeats / clock.cpu());
+    stage.compute(state, 0.0);
+    for (int body = 0; body < static_cast<int>(scene.model.bodies.size()); ++body) stage.gather(body, force);
+    cost.pairs_per_s = std::max(cost.pairs_per_s, static_cast<double>(cost.live) / clock.cpu());
   }
   omp_set_num_threads(threads);
   return cost;
