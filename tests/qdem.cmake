@@ -1,5 +1,6 @@
 # Tests of qdem.
 house_test(qdem_bodies unit SOURCES unit/qdem_model.cpp LIBRARIES qdem::engine)
+house_test(qdem_kernels unit SOURCES unit/qdem_kernels.cpp LIBRARIES qdem::engine)
 house_test(qdem_elements verification SOURCES verification/qdem_elements.cpp LIBRARIES qdem::engine)
 house_test(qdem_bonds verification SOURCES verification/qdem_bonds.cpp LIBRARIES qdem::engine)
 house_test(qdem_time_step convergence SOURCES convergence/qdem_time_step.cpp LIBRARIES qdem::engine)

@@ -33,6 +33,8 @@ multiply_add(std::int64_t n, double factor, double addend) {
   return total;
 }
 
+constexpr double flops_of_a_loop = 2.0 * 8 * n_accumulators;
+
 double flop_rate(int threads) {
   constexpr std::int64_t n = 4'000'000;
   double best = 0.0;
@@ -43,7 +45,7 @@ double flop_rate(int threads) {
 #pragma omp parallel num_threads(threads) reduction(+ : total)
     total += multiply_add(n, 0.999, 1e-3);
     sink = total;
-    best = std::max(best, 2.0 * 8 * n_accumulators * n * threads / seconds_since(start));
+    best = std::max(best, flops_of_a_loop * n * threads / seconds_since(start));
   }
   static_cast<void>(sink);
   return best;
@@ -66,6 +68,14 @@ double triad_rate(int threads) {
 
 MachineRates machine_rates(int threads) {
   return {flop_rate(threads), triad_rate(threads)};
+}
+
+double core_flop_rate() {
+  constexpr std::int64_t n = 150'000;
+  const auto start = std::chrono::steady_clock::now();
+  volatile double sink = multiply_add(n, 0.999, 1e-3);
+  static_cast<void>(sink);
+  return flops_of_a_loop * n / seconds_since(start);
 }
 
 }  // namespace qdem::bench

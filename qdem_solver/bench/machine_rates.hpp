@@ -8,7 +8,10 @@ struct MachineRates {
   double triad = 0.0;  ///< bytes moved by a = b + c d in memory, 24 a value [B/s]
 };
 
-/// Best of several rounds, all `threads` at once.
+/// Best of several rounds by the wall clock, all `threads` at once.
 MachineRates machine_rates(int threads);
+
+/// MachineRates::flops of one core in one round of half a millisecond or so.
+double core_flop_rate();
 
 }  // namespace qdem::bench

@@ -7,13 +7,14 @@
 #include <cstring>
 #include <ctime>
 
+#include "qdem_solver/bench/machine_rates.hpp"
 #include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/engine/stability.hpp"
 
 namespace qdem::bench {
 namespace {
 
-constexpr int rounds = 5;
+constexpr int rounds = 200;
 constexpr double tiny_step = 1e-8;  // [s]
 
 class Clock {
@@ -28,20 +29,34 @@ class Clock {
 
 }  // namespace
 
-Rate step_rate(Scene& scene, int threads, int n_steps) {
-  Engine engine(scene.model, {threads});
+Rate step_rate(Scene& scene, int n_rounds) {
+  Engine engine(scene.model, {1});
   engine.prepare(scene.state);
   Rate best;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < n_rounds; ++round) {
+    const double flops = core_flop_rate();
     const Clock clock;
-    engine.advance(scene.state, tiny_step, n_steps);
-    best = {std::max(best.wall, n_steps / clock.wall()), std::max(best.cpu, n_steps / clock.cpu())};
+    engine.advance(scene.state, tiny_step, 1);
+    best = {std::max(best.wall, 1 / clock.wall()), std::max(best.cpu, 1 / clock.cpu()), std::max(best.flops, flops)};
   }
   return best;
 }
 
+double two_thread_speedup(Scene& scene) {
+  double time[2] = {1e9, 1e9};
+  Engine engines[2] = {Engine(scene.model, {1}), Engine(scene.model, {2})};
+  engines[0].prepare(scene.state);
+  for (int round = 0; round < rounds; ++round) {
+    for (int i = 0; i < 2; ++i) {
+      const Clock clock;
+      engines[i].advance(scene.state, tiny_step, 1);
+      time[i] = std::min(time[i], clock.wall());
+    }
+  }
+  return time[0] / time[1];
+}
+
 ContactCost contact_cost(const Scene& scene) {
-  constexpr int repeats = 200;
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
   ContactCost cost;
@@ -59,11 +74,9 @@ ContactCost contact_cost(const Scene& scene) {
   cost.live = stage.report(state).live;
   for (int round = 0; round < rounds; ++round) {
     const Clock clock;
-    for (int i = 0; i < repeats; ++i) {
-      stage.compute(state, 0.0);
-      for (int body = 0; body < static_cast<int>(scene.model.bodies.size()); ++body) stage.gather(body, force);
-    }
-    cost.pairs_per_s = std::max(cost.pairs_per_s, static_cast<double>(cost.live) * repeats / clock.wall());
+    stage.compute(state, 0.0);
+    for (int body = 0; body < static_cast<int>(scene.model.bodies.size()); ++body) stage.gather(body, force);
+    cost.pairs_per_s = std::max(cost.pairs_per_s, static_cast<double>(cost.live) / clock.cpu());
   }
   omp_set_num_threads(threads);
   return cost;

@@ -5,14 +5,19 @@
 
 namespace qdem::bench {
 
-/// Best of several rounds, by the wall clock and by the CPU time of all threads together: on a busy machine only the
-/// second says something about the code.
+/// Best of many rounds. The wall clock cannot flatter, and where rounds are shorter than a time slice some of them are
+/// left alone even on a busy machine; the CPU time is for rounds that are longer.
 struct Rate {
   double wall = 0.0, cpu = 0.0;  ///< [1/s]
+  double flops = 0.0;            ///< core_flop_rate() between the rounds, the best too [1/s]
 };
 
-/// Whole steps a second, so small that the scene stays where it is: the cost of a step does not depend on its length.
-Rate step_rate(Scene& scene, int threads, int n_steps);
+/// Whole steps a second of one thread, so small that the scene stays where it is: the cost of a step does not depend on
+/// its length. A round is one step.
+Rate step_rate(Scene& scene, int n_rounds);
+
+/// Rate of two threads over that of one by the wall clock, their steps in turn.
+double two_thread_speedup(Scene& scene);
 
 struct ContactCost {
   std::int64_t live = 0;           ///< contacts that carry a force

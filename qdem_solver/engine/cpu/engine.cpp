@@ -31,9 +31,10 @@ Engine::Data::Data(const Model& the_model, EngineOptions the_options)
       tasks(cpu::make_tasks(model)),
       inverse_mass(cpu::inverse_masses(model)),
       free_motions(cpu::free_motions(model)),
-      force(model.n_values, 0.0),
+      force(model.n_values),
       moves(model.bodies.size(), 0.0),
-      slots(tasks.n_slot_values, 0.0),
+      slots(tasks.n_slot_values),
+      records(n_threads, cpu::AlignedValues(8 * tasks.largest_block)),
       contact(model),
       pads(model) {}
 
@@ -121,29 +122,38 @@ void Engine::Data::add_load(const Batch& batch) {
 
 void Engine::Data::run(State& state, const Task& task, double dt, Span<const double> pad_force) {
   const Batch& batch = model.batches[task.batch];
-  const Template& shape = model.templates[batch.template_id];
-  const Material& solid = model.materials[batch.material_id];
-  const auto elements = cpu::view_of(shape, solid.interaction);
-  const auto material = cpu::material_of(solid);
-  const auto& law = cpu::kernels_of(kernels, solid.interaction);
-  const double *x = &state.x[batch.offset], *v = &state.v[batch.offset];
-  double* out = &force[batch.offset];
-  if (task.kind == TaskKind::elements) {
-    double* body_slots = &slots[tasks.slot_offsets[task.batch]];
-    law.single_forces({elements, material, batch.scale[0], task.first, task.last, x, v, body_slots});
-    return;
-  }
+  if (task.kind == TaskKind::blocks) return run_blocks(state, task);
   if (task.kind == TaskKind::nodes) {
-    kernels.gather({elements.adjacency_offsets, elements.adjacency_slots, task.first, task.last,
-                    &slots[tasks.slot_offsets[task.batch]], out});
+    const cpu::ElementBlocks& blocks = *tasks.blocks[task.batch];
+    kernels.gather({blocks.node_offsets.data(), blocks.node_copies.data(), task.first, task.last,
+                    &slots[tasks.slot_offsets[task.batch]], &force[batch.offset]});
     if (!relaxing()) kick(state, batch, task.first, task.last, dt);
     return;
   }
   run_outer(task, pad_force);
   if (task.kind == TaskKind::outer) return;
-  law.lane_forces({elements, material, batch.scale.data(), x, v, out});
+  const Template& shape = model.templates[batch.template_id];
+  const Material& solid = model.materials[batch.material_id];
+  cpu::kernels_of(kernels, solid.interaction)
+      .lane_forces({cpu::view_of(shape, solid.interaction), cpu::material_of(solid), batch.scale.data(),
+                    &state.x[batch.offset], &state.v[batch.offset], &force[batch.offset]});
   if (relaxing()) scale_inertia(state, batch, dt);
   kick(state, batch, 0, shape.n_nodes(), dt);
+}
+
+void Engine::Data::run_blocks(const State& state, const Task& task) {
+  const Batch& batch = model.batches[task.batch];
+  const Material& solid = model.materials[batch.material_id];
+  const cpu::ElementBlocks& all = *tasks.blocks[task.batch];
+  const auto& law = cpu::kernels_of(kernels, solid.interaction);
+  double* of_body = &slots[tasks.slot_offsets[task.batch]];
+  for (int b = task.first; b < task.last; ++b) {
+    const auto& block = all.blocks[b];
+    law.block_forces({cpu::material_of(solid), batch.scale[0], block.n_groups, block.n_copies, all.corners_of(block),
+                      all.numbers_of(block), &all.copies[block.first_copy], &state.x[batch.offset],
+                      &state.v[batch.offset], records[omp_get_thread_num()].data(),
+                      of_body + std::int64_t{4} * block.first_copy});
+  }
 }
 
 void Engine::Data::run_outer(const Task& task, Span<const double> pad_force) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "qdem_solver/engine/cpu/aligned_values.hpp"
 #include "qdem_solver/engine/cpu/tasks.hpp"
 #include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/engine/pads.hpp"
@@ -19,6 +20,7 @@ struct Engine::Data {
 
   void drift(State& state, double dt);
   void run(State& state, const cpu::Task& task, double dt, proto::Span<const double> pad_force);
+  void run_blocks(const State& state, const cpu::Task& task);
   void run_outer(const cpu::Task& task, proto::Span<const double> pad_force);
   void kick(State& state, const Batch& batch, int first, int last, double dt);
   bool relaxing() const { return !model.inertia.empty(); }
@@ -39,9 +41,10 @@ struct Engine::Data {
   cpu::TaskList tasks;
   std::vector<double> inverse_mass;
   std::vector<double> free_motions;  ///< of every body, 6 each (cpu::free_motions)
-  std::vector<double> force;
-  std::vector<double> moves;  ///< of each body in the last drift [m]
-  std::vector<double> slots;  ///< element forces of single bodies
+  cpu::AlignedValues force;
+  std::vector<double> moves;                ///< of each body in the last drift [m]
+  cpu::AlignedValues slots;                 ///< forces of single bodies' blocks
+  std::vector<cpu::AlignedValues> records;  ///< of each thread: particles of one block
   ContactStage contact;
   PadOperator pads;
   std::vector<double> pad_reference;

@@ -15,8 +15,9 @@ namespace qdem::cpu {
 struct ElementView {
   int n_elements;
   int n_particles;        ///< of an element
+  int n_shape;            ///< values of an element's shape
   const int* particles;   ///< [n_elements][n_particles]
-  const double* shapes;   ///< rows of Dm^-1 [n_elements][9], or rest lengths [n_elements]
+  const double* shapes;   ///< [n_elements][n_shape]: rows of Dm^-1, or rest lengths
   const double* weights;  ///< volumes, or stiffness over E [n_elements]
   const int* adjacency_offsets;
   const int* adjacency_slots;
@@ -38,15 +39,18 @@ struct LaneForces {
   double* force;  ///< added to, element by element in ascending order
 };
 
-/// Elements [first, last) of one body: x, v [node][component].
-struct SingleForces {
-  ElementView elements;
+/// One block of a body's elements, see ElementBlocks; x, v [node][component].
+struct BlockForces {
   ElementMaterial material;
   double scale;
-  int first, last;
+  int n_groups, n_copies;
+  const std::uint16_t* corners;  ///< [n_groups][corner][8]
+  const double* numbers;         ///< [n_groups][value][8]
+  const int* copies;             ///< node of each particle of the block
   const double* x;
   const double* v;
-  double* slots;  ///< [n_elements][corner][component]: every element writes its own, nothing is added
+  double* records;  ///< [n_copies][8], scratch
+  double* slots;    ///< [n_copies][4]: force on each particle by this block, and one value without meaning
 };
 
 /// x += dt (v + dt/2 a), v += dt a over `n` rows of `lanes` values.
@@ -63,7 +67,8 @@ struct DriftResult {
   double sum;              ///< of all |moves|: not finite when any of them is not
 };
 
-/// a_new = force / m + gravity, damped; v += dt/2 (a_new - a); a = a_new, over `n_nodes` nodes of `lanes` lanes.
+/// a_new = force / m + gravity, damped; v += dt/2 (a_new - a); a = a_new, over `n_nodes` nodes of `lanes` lanes, 1
+/// or 8. All arrays reach to the next whole group of eight values.
 struct Kick {
   double dt;
   double gravity[3];
@@ -97,10 +102,10 @@ struct ScaleInertia {
   double* force;
 };
 
-/// Forces of one body gathered from element slots: force[node] += sum of its slots in ascending order.
+/// Forces of one body gathered from its blocks: force[node] += sum of its copies' slots in ascending order.
 struct Gather {
-  const int* adjacency_offsets;
-  const int* adjacency_slots;
+  const int* offsets;  ///< CSR: node -> copies
+  const int* copies;
   int first, last;  ///< nodes
   const double* slots;
   double* force;
@@ -109,7 +114,7 @@ struct Gather {
 /// Loops over the elements of one force law.
 struct ElementKernels {
   void (*lane_forces)(const LaneForces&);
-  void (*single_forces)(const SingleForces&);
+  void (*block_forces)(const BlockForces&);
 };
 
 struct Kernels {

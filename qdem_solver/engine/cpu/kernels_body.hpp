@@ -1,6 +1,12 @@
 // Bodies of the kernels. Included by one file per instruction set, which defines
 //   QDEM_KERNELS        name of the function that returns the table
 //   QDEM_KERNEL_WIDTH   doubles in one vector register
+#if QDEM_KERNEL_WIDTH > 2
+#include <immintrin.h>
+#endif
+
+#include <utility>
+
 #include "qdem_solver/engine/cpu/kernels.hpp"
 
 namespace qdem::cpu {
@@ -15,9 +21,14 @@ typedef double Loose __attribute__((vector_size(8 * QDEM_KERNEL_WIDTH), aligned(
 inline Vector load(const double* p) {
   return *reinterpret_cast<const Loose*>(p);
 }
+inline void store(double* p, Vector value) {
+  *reinterpret_cast<Loose*>(p) = value;
+}
 inline void add_to(double* p, Vector value) {
   *reinterpret_cast<Loose*>(p) += value;
 }
+
+#include "qdem_solver/engine/cpu/lane_exchange.hpp"
 
 /// What the loops over elements have to know of a force law.
 struct Quadruples {
@@ -40,140 +51,142 @@ inline Vector sum_of(const Vector* force, int component) {
 }
 
 template <class Law>
-void lane_forces(const LaneForces& job) {
+__attribute__((flatten)) void lane_forces(const LaneForces& job) {
   using Force = typename Law::Force;
-  constexpr int others = Force::n_particles - 1;
+  constexpr int n_particles = Force::n_particles, others = n_particles - 1;
   for (int lane = 0; lane < lanes; lane += width) {
-    const Vector scale = load(job.scale + lane);
-    const Force force = Law::force(scale, job.material);
-    const double* x = job.x + lane;
-    const double* v = job.v + lane;
-    double* out = job.force + lane;
-    for (int e = 0; e < job.elements.n_elements; ++e) {
-      const int* particles = job.elements.particles + Force::n_particles * e;
-      const int first = particles[0] * 3 * lanes;
+    const Force force = Law::force(load(job.scale + lane), job.material);
+    const double* __restrict x = job.x + lane;
+    const double* __restrict v = job.v + lane;
+    double* __restrict out = job.force + lane;
+    const int* particles = job.elements.particles;
+    const double* shape = job.elements.shapes;
+    const int n = job.elements.n_elements;
+    for (int e = 0; e < n; ++e, particles += n_particles, shape += Force::n_shape) {
+      std::int64_t at[n_particles];
+      for (int k = 0; k < n_particles; ++k) at[k] = std::int64_t{particles[k]} * (3 * lanes);
       Vector dx[3 * others], dv[3 * others], f[3 * others];
       for (int c = 0; c < 3; ++c) {
-        const Vector x0 = load(x + first + c * lanes), v0 = load(v + first + c * lanes);
+        const Vector x0 = load(x + at[0] + c * lanes), v0 = load(v + at[0] + c * lanes);
         for (int k = 0; k < others; ++k) {
-          const int other = particles[k + 1] * 3 * lanes + c * lanes;
-          dx[3 * k + c] = load(x + other) - x0;
-          dv[3 * k + c] = load(v + other) - v0;
+          dx[3 * k + c] = load(x + at[k + 1] + c * lanes) - x0;
+          dv[3 * k + c] = load(v + at[k + 1] + c * lanes) - v0;
         }
       }
-      force(dx, dv, job.elements.shapes + Force::n_shape * e, job.elements.weights[e], f);
+      force(dx, dv, shape, job.elements.weights[e], f);
       for (int c = 0; c < 3; ++c) {
-        for (int k = 0; k < others; ++k) add_to(out + particles[k + 1] * 3 * lanes + c * lanes, f[3 * k + c]);
-        add_to(out + first + c * lanes, -sum_of<others>(f, c));
+        for (int k = 0; k < others; ++k) add_to(out + at[k + 1] + c * lanes, f[3 * k + c]);
+        add_to(out + at[0] + c * lanes, -sum_of<others>(f, c));
       }
     }
   }
 }
 
-/// `count` <= width elements of one body, one a vector lane.
-template <class Force>
-inline void single_group(const SingleForces& job, const Force& force, int first, int count) {
-  constexpr int n_particles = Force::n_particles, others = n_particles - 1, n_shape = Force::n_shape;
-  alignas(64) double dx[3 * others][width], dv[3 * others][width], shape[n_shape][width], weight[width];
-  alignas(64) double f[3 * others][width];
-  for (int lane = 0; lane < width; ++lane) {
-    const int e = first + (lane < count ? lane : 0);
-    const int* particles = job.elements.particles + n_particles * e;
-    const double *x0 = job.x + 3 * particles[0], *v0 = job.v + 3 * particles[0];
-    for (int k = 0; k < others; ++k) {
-      const double *xk = job.x + 3 * particles[k + 1], *vk = job.v + 3 * particles[k + 1];
-      for (int c = 0; c < 3; ++c) dx[3 * k + c][lane] = xk[c] - x0[c], dv[3 * k + c][lane] = vk[c] - v0[c];
-    }
-    for (int i = 0; i < n_shape; ++i) shape[i][lane] = job.elements.shapes[n_shape * e + i];
-    weight[lane] = job.elements.weights[e];
+/// Positions and velocities of a block's particles as records {x y z vx vy vz - -}.
+inline void read_records(const BlockForces& job) {
+  for (int copy = 0; copy < job.n_copies; ++copy) {
+    const double *x = job.x + std::int64_t{3} * job.copies[copy], *v = job.v + std::int64_t{3} * job.copies[copy];
+    double* record = job.records + std::int64_t{8} * copy;
+    *reinterpret_cast<Pair*>(record) = load_pair(x);
+    *reinterpret_cast<Pair*>(record + 2) = Pair{x[2], v[0]};
+    *reinterpret_cast<Pair*>(record + 4) = load_pair(v + 1);
   }
-  force(reinterpret_cast<const Vector*>(dx), reinterpret_cast<const Vector*>(dv),
-        reinterpret_cast<const Vector*>(shape), load(weight), reinterpret_cast<Vector*>(f));
-  for (int lane = 0; lane < count; ++lane) {
-    double* slot = job.slots + 3 * n_particles * (first + lane);
-    for (int c = 0; c < 3; ++c) {
-      double sum = f[c][lane];
-      for (int k = 1; k < others; ++k) sum += f[3 * k + c][lane];
-      slot[c] = -sum;
-      for (int k = 0; k < others; ++k) slot[3 * (k + 1) + c] = f[3 * k + c][lane];
+}
+
+/// Element numbers come from memory: asked for so many groups before they are needed.
+constexpr int groups_ahead = 6;
+
+/// Calls `visit` with dx, dv, shape, weight and corners of so many elements of a block at a time as a vector has lanes.
+template <class Force, class Visit>
+inline void for_each_group(const BlockForces& job, Visit visit) {
+  constexpr int n_particles = Force::n_particles, others = n_particles - 1, n_shape = Force::n_shape;
+  read_records(job);
+  const double* __restrict records = job.records;
+  const std::uint16_t* corners = job.corners;
+  const double* numbers = job.numbers;
+  for (int group = 0; group < job.n_groups; ++group) {
+    for (int i = 0; i <= n_shape; ++i) __builtin_prefetch(numbers + (i + groups_ahead * (n_shape + 1)) * lanes);
+    for (int lane = 0; lane < lanes; lane += width) {
+      Vector first[6], other[6], dx[3 * others], dv[3 * others], shape[n_shape];
+      for (int i = 0; i < 3; ++i) read_pair(records, corners + lane, i, first);
+#pragma GCC unroll 3
+      for (int k = 0; k < others; ++k) {
+        for (int i = 0; i < 3; ++i) read_pair(records, corners + (k + 1) * lanes + lane, i, other);
+        for (int c = 0; c < 3; ++c) dx[3 * k + c] = other[c] - first[c], dv[3 * k + c] = other[3 + c] - first[3 + c];
+      }
+      for (int i = 0; i < n_shape; ++i) shape[i] = load(numbers + i * lanes + lane);
+      visit(dx, dv, shape, load(numbers + n_shape * lanes + lane), corners + lane);
     }
+    corners += n_particles * lanes, numbers += (n_shape + 1) * lanes;
   }
 }
 
 template <class Law>
-void single_forces(const SingleForces& job) {
-  const auto force = Law::force(Vector{} + job.scale, job.material);
-  for (int e = job.first; e < job.last; e += width) {
-    single_group(job, force, e, job.last - e < width ? job.last - e : width);
-  }
-}
-
-inline double drift_value(const Drift& job, std::int64_t i) {
-  const double move = job.dt * (job.v[i] + 0.5 * job.dt * job.a[i]);
-  job.x[i] += move;
-  job.v[i] += job.dt * job.a[i];
-  return move < 0 ? -move : move;
+__attribute__((flatten)) void block_forces(const BlockForces& job) {
+  using Force = typename Law::Force;
+  constexpr int n_particles = Force::n_particles, others = n_particles - 1;
+  const Force force = Law::force(Vector{} + job.scale, job.material);
+  double* __restrict slots = job.slots;
+  for (int i = 0; i < 4 * job.n_copies; ++i) slots[i] = 0.0;
+  for_each_group<Force>(
+      job, [&](const Vector* dx, const Vector* dv, const Vector* shape, Vector weight, const std::uint16_t* corners) {
+        Vector f[3 * n_particles];
+        force(dx, dv, shape, weight, f + 3);
+        for (int c = 0; c < 3; ++c) f[c] = -sum_of<others>(f + 3, c);
+#pragma GCC unroll 4
+        for (int k = 0; k < n_particles; ++k) {
+          add_lanes(slots, corners + k * lanes, f + 3 * k, std::make_integer_sequence<int, width>());
+        }
+      });
 }
 
 DriftResult drift(const Drift& job) {
   DriftResult result{};
-  if (job.lanes == 1) {
-    double largest = 0.0, sum = 0.0;
-#pragma omp simd reduction(max : largest) reduction(+ : sum)
-    for (int i = 0; i < job.n; ++i) {
-      const double size = drift_value(job, i);
+  for (int lane = 0; lane < lanes; lane += width) {
+    Vector largest{}, sum{};
+    for (std::int64_t i = lane; i < std::int64_t{job.n} * job.lanes; i += lanes) {
+      const Vector velocity = load(job.v + i), accel = load(job.a + i);
+      const Vector move = job.dt * (velocity + 0.5 * job.dt * accel), size = move < 0.0 ? -move : move;
+      add_to(job.x + i, move);
+      store(job.v + i, velocity + job.dt * accel);
       largest = size > largest ? size : largest;
       sum += size;
     }
-    result.largest_move[0] = largest, result.sum = sum;
-    return result;
+    store(result.largest_move + lane, largest);
+    for (int l = 0; l < width; ++l) result.sum += sum[l];
   }
-  double sums[lanes] = {};
-  for (int row = 0; row < job.n; ++row) {
-#pragma omp simd
-    for (int l = 0; l < lanes; ++l) {
-      const double size = drift_value(job, std::int64_t{row} * lanes + l);
-      result.largest_move[l] = size > result.largest_move[l] ? size : result.largest_move[l];
-      sums[l] += size;
-    }
+  for (int l = 1; job.lanes == 1 && l < lanes; ++l) {
+    if (result.largest_move[l] > result.largest_move[0]) result.largest_move[0] = result.largest_move[l];
   }
-  for (int l = 0; l < lanes; ++l) result.sum += sums[l];
   return result;
 }
 
-/// One component of one node over its lanes.
-inline void kick_values(const Kick& job, int n, double gravity, const double* force, const double* inverse_mass,
-                        double* v, double* a) {
-#pragma omp simd
-  for (int i = 0; i < n; ++i) {
-    double accel = inverse_mass[i] > 0 ? force[i] * inverse_mass[i] + gravity : 0.0;
-    const double size = accel < 0 ? -accel : accel;
-    const double sign = v[i] > 0 ? 1.0 : (v[i] < 0 ? -1.0 : 0.0);
-    accel -= job.local_damping * size * sign + job.drag * v[i];
-    v[i] += 0.5 * job.dt * (accel - a[i]);
-    a[i] = accel;
-  }
+inline void kick_values(const Kick& job, Vector gravity, std::int64_t i) {
+  const Vector zero{}, inverse_mass = load(job.inverse_mass + i), velocity = load(job.v + i);
+  Vector accel = inverse_mass > zero ? load(job.force + i) * inverse_mass + gravity : zero;
+  const Vector size = accel < zero ? -accel : accel;
+  const Vector sign = velocity > zero ? zero + 1.0 : (velocity < zero ? zero - 1.0 : zero);
+  accel -= job.local_damping * size * sign + job.drag * velocity;
+  store(job.v + i, velocity + 0.5 * job.dt * (accel - load(job.a + i)));
+  store(job.a + i, accel);
 }
 
 void kick(const Kick& job) {
-  for (int node = 0; node < job.n_nodes; ++node) {
-    for (int c = 0; c < 3; ++c) {
-      const std::int64_t at = std::int64_t{3 * node + c} * job.lanes;
-      // A constant count lets the compiler unroll the common case.
-      if (job.lanes == lanes) {
-        kick_values(job, lanes, job.gravity[c], job.force + at, job.inverse_mass + at, job.v + at, job.a + at);
-      } else {
-        kick_values(job, job.lanes, job.gravity[c], job.force + at, job.inverse_mass + at, job.v + at, job.a + at);
-      }
-    }
+  // Components repeat after three groups of eight values, with one lane as with eight.
+  constexpr int period = 3 * lanes;
+  double gravity[period];
+  for (int k = 0; k < period; ++k) gravity[k] = job.gravity[k / job.lanes % 3];
+  const std::int64_t n = std::int64_t{3} * job.n_nodes * job.lanes;
+  for (std::int64_t i = 0; i < n; i += period) {
+    for (int k = 0; k < period && i + k < n; k += width) kick_values(job, load(gravity + k), i + k);
   }
 }
 
 void gather(const Gather& job) {
   for (int node = job.first; node < job.last; ++node) {
     double sum[3] = {0.0, 0.0, 0.0};
-    for (int i = job.adjacency_offsets[node]; i < job.adjacency_offsets[node + 1]; ++i) {
-      const double* slot = job.slots + 3 * job.adjacency_slots[i];
+    for (int i = job.offsets[node]; i < job.offsets[node + 1]; ++i) {
+      const double* slot = job.slots + std::int64_t{4} * job.copies[i];
       for (int c = 0; c < 3; ++c) sum[c] += slot[c];
     }
     for (int c = 0; c < 3; ++c) job.force[3 * node + c] += sum[c];
@@ -320,8 +333,8 @@ void scale_inertia(const ScaleInertia& job) {
 
 const Kernels& QDEM_KERNELS() {
   static const Kernels table{QDEM_INSTRUCTION_SET,
-                             {lane_forces<Quadruples>, single_forces<Quadruples>},
-                             {lane_forces<Bonds>, single_forces<Bonds>},
+                             {lane_forces<Quadruples>, block_forces<Quadruples>},
+                             {lane_forces<Bonds>, block_forces<Bonds>},
                              drift,
                              kick,
                              gather,

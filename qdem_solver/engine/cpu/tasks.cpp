@@ -3,13 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "qdem_solver/model/bond_network.hpp"
 
 namespace qdem::cpu {
 namespace {
 
-constexpr int elements_per_task = 1024;
 constexpr int nodes_per_task = 512;
 
 void cut(std::vector<Task>& tasks, TaskKind kind, int batch, int n, int size) {
@@ -21,21 +22,26 @@ void cut(std::vector<Task>& tasks, TaskKind kind, int batch, int n, int size) {
 TaskList make_tasks(const Model& model) {
   TaskList list;
   std::vector<Task> batches;
+  std::map<std::pair<int, int>, std::shared_ptr<const ElementBlocks>> of_kind;  // by template and material
   for (int b = 0; b < static_cast<int>(model.batches.size()); ++b) {
     const Batch& batch = model.batches[b];
     const Template& shape = model.templates[batch.template_id];
     const ElementView elements = view_of(shape, model.materials[batch.material_id].interaction);
-    if (batch.lanes == 1) {
-      list.forces.push_back({TaskKind::outer, b});
-      cut(list.forces, TaskKind::elements, b, elements.n_elements, elements_per_task);
-      cut(list.nodes, TaskKind::nodes, b, shape.n_nodes(), nodes_per_task);
-      list.singles.push_back(b);
-      list.slot_offsets.push_back(list.n_slot_values);
-      list.n_slot_values += std::int64_t{3} * elements.n_particles * elements.n_elements;
-    } else {
+    if (batch.lanes > 1) {
       batches.push_back({TaskKind::batch, b, 0, elements.n_elements});
-      list.slot_offsets.push_back(-1);
+      list.blocks.push_back(nullptr), list.slot_offsets.push_back(-1);
+      continue;
     }
+    const auto [made, missing] = of_kind.try_emplace({batch.template_id, batch.material_id});
+    if (missing) made->second = std::make_shared<const ElementBlocks>(make_blocks(elements, shape.nodes));
+    const ElementBlocks& blocks = *made->second;
+    list.forces.push_back({TaskKind::outer, b});
+    cut(list.forces, TaskKind::blocks, b, static_cast<int>(blocks.blocks.size()), 1);
+    cut(list.nodes, TaskKind::nodes, b, shape.n_nodes(), nodes_per_task);
+    list.singles.push_back(b);
+    list.blocks.push_back(made->second), list.slot_offsets.push_back(list.n_slot_values);
+    list.n_slot_values += 4 * static_cast<std::int64_t>(blocks.copies.size());
+    for (const auto& block : blocks.blocks) list.largest_block = std::max(list.largest_block, block.n_copies);
   }
   std::stable_sort(batches.begin(), batches.end(), [](const Task& p, const Task& q) { return p.last > q.last; });
   list.forces.insert(list.forces.end(), batches.begin(), batches.end());
@@ -47,6 +53,7 @@ ElementView view_of(const Template& shape, Interaction interaction) {
     const BondNetwork& bonds = bonds_of(shape);
     return {static_cast<int>(bonds.nodes.size()),
             BondForce<double>::n_particles,
+            BondForce<double>::n_shape,
             bonds.nodes.data()->data(),
             bonds.lengths.data(),
             bonds.stiffness.data(),
@@ -55,6 +62,7 @@ ElementView view_of(const Template& shape, Interaction interaction) {
   }
   return {shape.n_tets(),
           QuadrupleForce<double>::n_particles,
+          QuadrupleForce<double>::n_shape,
           shape.tets.data()->data(),
           shape.gradients.data()->data(),
           shape.volumes.data(),

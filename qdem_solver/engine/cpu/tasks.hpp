@@ -2,33 +2,36 @@
 // of threads, and every sum lies inside one task: this is why results do not depend on the threads.
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "qdem_solver/engine/cpu/kernels.hpp"
+#include "qdem_solver/engine/cpu/blocks.hpp"
 #include "qdem_solver/model/model.hpp"
 
 namespace qdem::cpu {
 
 enum class TaskKind {
-  batch,     ///< all of a batch of lanes: elements, contact, kick
-  outer,     ///< contact and pad forces of a single body
-  elements,  ///< some elements of a single body, into its slots
-  nodes,     ///< some nodes of a single body: gather from slots, kick
+  batch,   ///< all of a batch of lanes: elements, contact, kick
+  outer,   ///< contact and pad forces of a single body
+  blocks,  ///< some blocks of elements of a single body, into its slots
+  nodes,   ///< some nodes of a single body: gather from slots, kick
 };
 
 struct Task {
   TaskKind kind;
   int batch;
-  int first = 0, last = 0;  ///< elements or nodes
+  int first = 0, last = 0;  ///< blocks or nodes
 };
 
 /// Tasks of the phases; between them all threads meet.
 struct TaskList {
-  std::vector<Task> forces;  ///< outer, elements and batch, longest first
+  std::vector<Task> forces;  ///< outer, blocks and batch, longest first
   std::vector<Task> nodes;
   std::vector<int> singles;  ///< batches of single bodies, whose kick waits for all their nodes while relaxing
+  std::vector<std::shared_ptr<const ElementBlocks>> blocks;  ///< per batch: of a single body, else none
   std::vector<std::int64_t> slot_offsets;  ///< per batch: of its first slot value; -1 for batches of lanes
   std::int64_t n_slot_values = 0;
+  int largest_block = 0;  ///< particles
 };
 
 TaskList make_tasks(const Model& model);
