@@ -44,9 +44,9 @@ class InputHash {
 void add_settings(InputHash& hash, const bed::Settings& s) {
   for (const double value : {static_cast<double>(bed_file_format),
                              static_cast<double>(s.seed),
-                             s.sleeper_length,
-                             s.sleeper_width,
-                             s.sleeper_height,
+                             2 * s.sleeper.half_length(),
+                             s.sleeper.width(),
+                             s.sleeper.height(),
                              static_cast<double>(s.sleeper_cells),
                              s.depth,
                              s.crib_height,
@@ -82,6 +82,10 @@ void add_settings(InputHash& hash, const bed::Settings& s) {
   }
   hash.add(s.gradation.sizes), hash.add(s.gradation.passing);
   for (const auto& seat : s.seats) hash.add(seat.origin);
+  if (!s.sleeper.is_tapered()) return;
+  for (const auto& section : s.sleeper.sections) {
+    for (const double value : {section.place, section.height, section.bottom_width, section.top_width}) hash.add(value);
+  }
 }
 
 void add_physics(InputHash& hash, const BedPhysics& p) {

@@ -110,6 +110,13 @@ TEST(Sleeper, BoxFillsItsVolume) {
   EXPECT_TRUE(closed(box));
 }
 
+TEST(Sleeper, ASleeperWithoutTaperIsABox) {
+  const auto box = box_shape("box", {-0.13, 0, -0.2}, {0.13, 1.2, 0}, 0.05);
+  const auto sleeper = sleeper_mesh("sleeper", box_sleeper(2.4, 0.26, 0.2), 4);
+  ASSERT_EQ(box.tets, sleeper.tets);
+  for (int i = 0; i < box.n_nodes(); ++i) EXPECT_EQ(box.nodes[i], sleeper.nodes[i]);
+}
+
 TEST(Porosity, OfOneCubeIsItsClosedForm) {
   qdem::Model model;
   model.materials.push_back({"rock", 6e10, 0.25, 2700, 0, 0});
@@ -231,6 +238,43 @@ TEST(Settings, RefuseWhatCannotBe) {
   EXPECT_NE(refusal("sieve_passing_percent = [0, 50, 100]\n").find("sieve"), std::string::npos);
   EXPECT_NE(refusal("sieve_sizes_m = [0.05, 0.04, 0.06, 0.07, 0.08]\n").find("ascend"), std::string::npos);
   EXPECT_NE(refusal("depth_m = -0.2\n"), "");
+}
+
+TEST(Settings, TakeSleepersByNameAndByDimensions) {
+  const auto sleeper = [](const std::string& bed) {
+    return read_settings(proto::CaseFile::load(case_with(bed))).sleeper;
+  };
+  EXPECT_EQ(sleeper("sleeper = \"B70\"\n").height(), 0.214);
+  EXPECT_EQ(sleeper("sleeper = \"B70\"\nsleeper_length_m = 2.5\n").half_length(), 1.25);
+  EXPECT_EQ(sleeper("sleeper = \"B70\"\nsleeper_end_m = [0.2, 0.31, 0.16]\n").width(), 0.31);
+  const std::string own =
+      "sleeper = \"tapered\"\nsleeper_length_m = 2.0\nsleeper_seat_range_m = [0.6, 0.9]\n"
+      "sleeper_centre_m = [0.15, 0.22, 0.15]\nsleeper_seat_m = [0.17, 0.24, 0.18]\n";
+  const auto shape = sleeper(own + "sleeper_end_m = [0.13, 0.24, 0.18]\n");
+  EXPECT_TRUE(near_rel(shape.bottom_area(), 0.6 * 0.23 + 0.4 * 0.24, 1e-12));
+  EXPECT_EQ(shape.seat_range(), std::pair(0.6, 0.9));
+}
+
+TEST(Settings, RefuseSleepersThatCannotBe) {
+  EXPECT_NE(refusal("sleeper = \"B71\"\n").find("did you mean 'B70'"), std::string::npos);
+  EXPECT_NE(refusal("sleeper = \"B70\"\nsleeper_width_m = 0.3\n").find("it is for a box"), std::string::npos);
+  EXPECT_NE(refusal("sleeper_end_m = [0.2, 0.3, 0.2]\n").find("the sleeper is a box"), std::string::npos);
+  EXPECT_NE(refusal("sleeper = \"tapered\"\n").find("bed.sleeper_centre_m"), std::string::npos);
+  EXPECT_NE(refusal("sleeper = \"B70\"\nsleeper_end_m = [0.2, 0.3, 0.4]\n").find("top is wider"), std::string::npos);
+  EXPECT_NE(refusal("sleeper = \"B70\"\nsleeper_end_m = [0.3, 0.3, 0.2]\n").find("higher than the rail seat"),
+            std::string::npos);
+  EXPECT_NE(refusal("sleeper = \"B70\"\nsleeper_length_m = 1.6\n").find("must begin before it ends"),
+            std::string::npos);
+  EXPECT_NE(refusal("sleeper = \"3PR\"\n").find("rail seat 'seat' reaches from 0.683"), std::string::npos);
+  EXPECT_NE(refusal("sleeper = \"B70\"\nsleeper_seat_m = [0.21, 0.3, 0.14]\n").find("wider than the sleeper's top"),
+            std::string::npos);
+}
+
+TEST(BedHash, KnowsTheSleepersSections) {
+  const auto hash = [](const std::string& bed) { return qdem::bed_hash(proto::CaseFile::load(case_with(bed)), {}); };
+  const std::string known = "sleeper = \"B70\"\n";
+  EXPECT_NE(hash(known), hash(known + "sleeper_end_m = [0.18, 0.3, 0.15]\n"));
+  EXPECT_EQ(hash(""), hash("sleeper = \"box\"\n"));
 }
 
 TEST(BedHash, KnowsHowParticlesInteract) {
