@@ -88,11 +88,12 @@ void add_settings(InputHash& hash, const bed::Settings& s) {
   }
 }
 
+void add_material(InputHash& hash, const Material& m) {
+  for (const double value : {m.young, m.poisson, m.density, m.lame_viscosity, m.shear_viscosity}) hash.add(value);
+}
+
 void add_physics(InputHash& hash, const BedPhysics& p) {
-  for (const Material* m : {&p.stone, &p.sleeper}) {
-    for (const double value : {m->young, m->poisson, m->density, m->lame_viscosity, m->shear_viscosity})
-      hash.add(value);
-  }
+  add_material(hash, p.stone), add_material(hash, p.sleeper);
   const ContactLaw& c = p.contact;
   for (const double value : {c.normal_stiffness, c.tangential_ratio, c.damping_ratio, c.friction, c.rounding, c.skin}) {
     hash.add(value);
@@ -100,6 +101,16 @@ void add_physics(InputHash& hash, const BedPhysics& p) {
   hash.add(p.ground_friction);
   hash.add(p.gravity);
   hash.add(static_cast<double>(p.stone.interaction)), hash.add(static_cast<double>(p.sleeper.interaction));
+}
+
+/// A bed of the material "stone" alone adds nothing.
+void add_mixture(InputHash& hash, const std::vector<bed::Ingredient>& mixture, const BedPhysics& p) {
+  if (mixture.size() == 1 && mixture[0].material_id == 0) return;
+  const auto materials = p.materials();
+  for (const bed::Ingredient& part : mixture) {
+    hash.add(part.share);
+    add_material(hash, materials.at(part.material_id));
+  }
 }
 
 /// Names and content. A bed of generated stones adds nothing.
@@ -130,10 +141,17 @@ std::string hash_of(const bed::Settings& settings, const BedPhysics& physics) {
   add_settings(hash, settings);
   add_physics(hash, physics);
   add_stone_files(hash, settings.shapes.files);
+  add_mixture(hash, settings.mixture, physics);
   return hash.hex();
 }
 
 }  // namespace
+
+std::vector<Material> BedPhysics::materials() const {
+  std::vector<Material> all{stone, sleeper};
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
 
 std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics) {
   return hash_of(bed::read_settings(file), physics);

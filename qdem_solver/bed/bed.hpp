@@ -14,9 +14,13 @@ namespace qdem {
 /// What the bed has to know of `[qdem]`; whoever reads that section hands it over.
 struct BedPhysics {
   Material stone, sleeper;
+  std::vector<Material> others;  ///< further materials that a case names
   ContactLaw contact;            ///< between bodies, at real stiffness; also the planes' k_n, k_t, damping, rounding
   double ground_friction = 0.5;  ///< of the plane under the ballast [-]
   Eigen::Vector3d gravity{0, 0, -9.81};  ///< [m/s2]
+
+  /// All materials as Model::materials holds them: stone, sleeper, others.
+  std::vector<Material> materials() const;
 };
 
 /// Figures of a finished bed. All are stored in the bed file, so a loaded bed reports what the built one did.
@@ -44,9 +48,9 @@ struct BedReport {
 
 /// A bed at rest: time 0, velocities of the last relaxation step as they are, contact history kept.
 ///
-/// Body 0 is the sleeper (`model.pad_body` = 0), bodies 1.. are stones. `model.materials` are {stone, sleeper}. Planes:
-/// "ground", "symmetry" (y = 0, stones only), "bay_begin", "bay_end". Fixities hold the sleeper's cut at u_y = 0. No
-/// pads: the caller adds them. Local damping and drag are zero.
+/// Body 0 is the sleeper (`model.pad_body` = 0), bodies 1.. are stones. `model.materials` are BedPhysics::materials().
+/// Planes: "ground", "symmetry" (y = 0, stones only), "bay_begin", "bay_end". Fixities hold the sleeper's cut at u_y =
+/// 0. No pads: the caller adds them. Local damping and drag are zero.
 struct Bed {
   Model model;
   State state;

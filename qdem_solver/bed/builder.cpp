@@ -81,13 +81,14 @@ void Builder::make_stones() {
   const double crib = (s.wall() * s.spacing - s.sleeper.bottom_area()) * s.crib_height;
   layer_ = draw_stones(s.gradation, n_templates, volume_of, solid * layer, random_);
   if (crib > 0) crib_ = draw_stones(s.gradation, n_templates, volume_of, solid * crib, random_);
+  mix_materials(s.mixture, volume_of, layer_), mix_materials(s.mixture, volume_of, crib_);
 
   model_.templates.push_back(sleeper_mesh("sleeper", s.sleeper, s.sleeper_cells));
   Body body;
   body.kind = BodyKind::sleeper, body.name = "sleeper", body.template_id = n_templates, body.material_id = 1;
   model_.bodies.push_back(body);
   model_.pad_body = sleeper;
-  model_.materials = {physics_.stone, physics_.sleeper};
+  model_.materials = physics_.materials();
   model_.gravity = physics_.gravity;
   make_batches(model_);
   state_ = make_state(model_, {Placement{}});
@@ -120,7 +121,7 @@ void Builder::add_stones(const std::vector<Stone>& stones, const std::vector<Rec
   for (std::size_t i = 0; i < stones.size(); ++i) {
     Body body;
     body.name = "stone_" + std::to_string(model_.bodies.size());
-    body.template_id = stones[i].template_id;
+    body.template_id = stones[i].template_id, body.material_id = stones[i].material_id;
     body.scale = scales[i];
     model_.bodies.push_back(body);
   }

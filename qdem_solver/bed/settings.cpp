@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "proto/error.hpp"
 #include "qdem_solver/bed/stone_files.hpp"
 
 namespace qdem::bed {
@@ -47,6 +48,28 @@ void read_stone_files(const Section& bed, StoneShapes& shapes) {
   }
   shapes.files = bed.matching_files("stone_files", stone_file_endings);
   shapes.n_templates = static_cast<int>(shapes.files.size());
+}
+
+/// `names`: of all materials.
+std::vector<Ingredient> read_mixture(const Section& bed, const std::vector<std::string>& names) {
+  std::vector<Ingredient> mixture;
+  for (const std::string& name : bed.texts_or("stone_materials", {"stone"})) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      const std::string nearest = proto::nearest_name(name, names);
+      bed.fail("stone_materials", "there is no material '" + name + "'",
+               nearest.empty() ? "add a [[qdem.material]] with that name" : "did you mean '" + nearest + "'?");
+    }
+    mixture.push_back({static_cast<int>(found - names.begin()), 1.0});
+  }
+  if (mixture.empty()) bed.fail("stone_materials", "stones need a material");
+  const auto shares =
+      bed.numbers_or("stone_material_shares", std::vector<double>(mixture.size(), 1.0), Range::positive());
+  if (shares.size() != mixture.size()) {
+    bed.fail("stone_material_shares", "as many shares as materials are needed, " + std::to_string(mixture.size()));
+  }
+  for (std::size_t i = 0; i < shares.size(); ++i) mixture[i].share = shares[i];
+  return mixture;
 }
 
 StoneShapes read_shapes(const Section& bed, std::uint64_t seed) {
@@ -190,6 +213,15 @@ void check_seats(const Section& bed, const Settings& s) {
 
 }  // namespace
 
+std::vector<std::string> material_names(const proto::CaseFile& file) {
+  std::vector<std::string> names{"stone", "sleeper"};
+  for (const Section& material : file.section("qdem").sections("material")) {
+    const std::string name = material.text_or("name", "");
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
 Settings read_settings(const proto::CaseFile& file) {
   const Section bed = file.section("bed"), track = file.section("track");
   Settings s;
@@ -199,6 +231,7 @@ Settings read_settings(const proto::CaseFile& file) {
   read_geometry(bed, s);
   s.gradation = read_gradation(bed);
   s.shapes = read_shapes(bed, s.seed);
+  s.mixture = read_mixture(bed, material_names(file));
   read_procedure(bed, s);
   read_limits(bed, s);
   bed.finish();

@@ -27,6 +27,7 @@ struct Settings {
 
   Gradation gradation;
   StoneShapes shapes;
+  std::vector<Ingredient> mixture{Ingredient{}};  ///< of the stones' materials
 
   double target_porosity = 0;  ///< the stones are drawn for [-]
   double pour_speed = 0;       ///< drag limits falling stones to it [m/s]
@@ -56,6 +57,10 @@ struct Settings {
   /// Foot of the shoulder's slope: y of the formwork's wall [m].
   double wall() const { return half_length() + shoulder_width + shoulder_slope * (depth + crib_height); }
 };
+
+/// Names of the case's materials in the order of BedPhysics::materials(): "stone", "sleeper", then the others as they
+/// come in [[qdem.material]].
+std::vector<std::string> material_names(const proto::CaseFile& file);
 
 /// Reads and checks [bed], [track] and the rail seats. Throws proto::Error (config).
 Settings read_settings(const proto::CaseFile& file);

@@ -201,7 +201,7 @@ Bed take_bed(const Hdf5Store& file, const BedPhysics& physics) {
     throw proto::Error(proto::ExitCode::bad_data, "a bed file of another format");
   }
   Bed bed;
-  bed.model.materials = {physics.stone, physics.sleeper};
+  bed.model.materials = physics.materials();
   bed.model.contact = physics.contact;
   bed.model.gravity = physics.gravity;
   bed.model.pad_body = 0;

@@ -270,6 +270,55 @@ TEST(Settings, RefuseSleepersThatCannotBe) {
             std::string::npos);
 }
 
+const std::string granite = "[[qdem.material]]\nname = \"granite\"\n";
+
+TEST(Settings, TakeMaterialsByName) {
+  const auto mixture = [](const std::string& bed) {
+    return read_settings(proto::CaseFile::load(case_with(bed))).mixture;
+  };
+  EXPECT_EQ(mixture("").size(), 1u);
+  EXPECT_EQ(mixture("")[0].material_id, 0);
+  const auto two =
+      mixture("stone_materials = [\"stone\", \"granite\"]\nstone_material_shares = [1.0, 3.0]\n" + granite);
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[1].material_id, 2);
+  EXPECT_EQ(two[1].share, 3.0);
+  EXPECT_NE(refusal("stone_materials = [\"granit\"]\n" + granite).find("did you mean 'granite'?"), std::string::npos);
+  EXPECT_NE(refusal("stone_materials = [\"slate\"]\n").find("there is no material 'slate'"), std::string::npos);
+  EXPECT_NE(refusal("stone_material_shares = [1.0, 2.0]\n").find("as many shares as materials"), std::string::npos);
+  EXPECT_NE(refusal("stone_material_shares = [-1.0]\n"), "");
+}
+
+TEST(Gradation, MixesMaterialsByVolume) {
+  const auto volume_of = [](int t, double size) { return (0.3 + 0.05 * t) * size * size * size; };
+  auto stones = draw(3, 0.05);
+  mix_materials({{0, 1.0}, {2, 2.0}, {3, 1.0}}, volume_of, stones);
+  std::map<int, double> volumes;
+  double whole = 0.0, largest = 0.0;
+  for (const Stone& stone : stones) {
+    const double own = volume_of(stone.template_id, stone.size);
+    volumes[stone.material_id] += own, whole += own, largest = std::max(largest, own);
+  }
+  ASSERT_EQ(volumes.size(), 3u);
+  EXPECT_TRUE(near_abs(volumes[0], 0.25 * whole, largest));
+  EXPECT_TRUE(near_abs(volumes[2], 0.5 * whole, largest));
+}
+
+TEST(BedHash, KnowsTheMixture) {
+  qdem::BedPhysics physics;
+  physics.others.resize(1);
+  physics.others[0].young = 5e10;
+  const auto hash = [&](const std::string& bed) {
+    return qdem::bed_hash(proto::CaseFile::load(case_with(bed)), physics);
+  };
+  const std::string two = "stone_materials = [\"stone\", \"granite\"]\n";
+  const auto first = hash(two + granite);
+  EXPECT_NE(first, hash(two + "stone_material_shares = [1.0, 2.0]\n" + granite));
+  physics.others[0].young = 6e10;
+  EXPECT_NE(first, hash(two + granite));
+  EXPECT_EQ(hash(""), hash(granite));  // named, not used
+}
+
 TEST(BedHash, KnowsTheSleepersSections) {
   const auto hash = [](const std::string& bed) { return qdem::bed_hash(proto::CaseFile::load(case_with(bed)), {}); };
   const std::string known = "sleeper = \"B70\"\n";

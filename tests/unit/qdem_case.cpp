@@ -148,7 +148,9 @@ TEST(QdemCase, RefusesWhatItCannotUse) {
   expect_refused("step_safety = 1.2\n", "qdem.step_safety");
   expect_refused("[[qdem.material]]\nname = \"stone\"\nyoung_pa = 1e9\npoisson = 0.2\ndensity_kg_per_m3 = 1\n",
                  "twice");
-  expect_refused("[[qdem.material]]\nname = \"stoen\"\n", "stone");
+  const std::string own = "young_pa = 1e9\npoisson = 0.2\ndensity_kg_per_m3 = 1\n";
+  expect_refused("[[qdem.material]]\nname = \"stoen\"\n" + own, "did you mean 'stone'");
+  expect_refused("[[qdem.material]]\nname = \"granite\"\n" + own, "nothing is made of the material 'granite'");
   expect_refused("[qdem.run.load]\nkind = \"table\"\ntime_s = [0, 1]\nforce_n = [5]\n", "1 forces for 2 times");
   expect_refused("[qdem.run.load]\nkind = \"table\"\ntime_s = [1, 1]\nforce_n = [5, 6]\n", "do not ascend");
   expect_refused("[qdem.run.load]\nkind = \"half_sin\"\n", "half_sine");
