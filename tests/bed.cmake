@@ -8,4 +8,5 @@ house_test(sleeper_bending verification SOURCES verification/sleeper_bending.cpp
 house_test(contact_impact_test verification SOURCES verification/contact_impact_test.cpp LIBRARIES qdem::engine)
 house_test(contact_restitution verification SOURCES verification/contact_restitution.cpp LIBRARIES qdem::engine)
 house_test(contact_stack verification SOURCES verification/contact_stack.cpp LIBRARIES qdem::engine)
+house_test(contact_layers verification SOURCES verification/contact_layers.cpp LIBRARIES qdem::engine)
 house_test(contact_sliding verification SOURCES verification/contact_sliding.cpp LIBRARIES qdem::engine)

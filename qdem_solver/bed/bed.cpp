@@ -103,6 +103,15 @@ void add_physics(InputHash& hash, const BedPhysics& p) {
   hash.add(static_cast<double>(p.stone.interaction)), hash.add(static_cast<double>(p.sleeper.interaction));
 }
 
+/// Rigid ones add nothing.
+void add_bearings(InputHash& hash, const BedPhysics& p) {
+  if (p.lining.is_rigid() && p.ground.is_rigid()) return;
+  for (const Bearing* b : {&p.lining, &p.ground}) {
+    for (const double value : {b->normal_stiffness, b->tangential_stiffness, b->normal_damping, b->tangential_damping})
+      hash.add(value);
+  }
+}
+
 /// A bed of the material "stone" alone adds nothing.
 void add_mixture(InputHash& hash, const std::vector<bed::Ingredient>& mixture, const BedPhysics& p) {
   if (mixture.size() == 1 && mixture[0].material_id == 0) return;
@@ -142,16 +151,11 @@ std::string hash_of(const bed::Settings& settings, const BedPhysics& physics) {
   add_physics(hash, physics);
   add_stone_files(hash, settings.shapes.files);
   add_mixture(hash, settings.mixture, physics);
+  add_bearings(hash, physics);
   return hash.hex();
 }
 
 }  // namespace
-
-std::vector<Material> BedPhysics::materials() const {
-  std::vector<Material> all{stone, sleeper};
-  all.insert(all.end(), others.begin(), others.end());
-  return all;
-}
 
 std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics) {
   return hash_of(bed::read_settings(file), physics);

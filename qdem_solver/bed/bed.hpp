@@ -17,10 +17,16 @@ struct BedPhysics {
   std::vector<Material> others;  ///< further materials that a case names
   ContactLaw contact;            ///< between bodies, at real stiffness; also the planes' k_n, k_t, damping, rounding
   double ground_friction = 0.5;  ///< of the plane under the ballast [-]
+  Bearing lining;                ///< under-sleeper pad
+  Bearing ground;                ///< behind the plane under the ballast: mat, subgrade
   Eigen::Vector3d gravity{0, 0, -9.81};  ///< [m/s2]
 
   /// All materials as Model::materials holds them: stone, sleeper, others.
-  std::vector<Material> materials() const;
+  std::vector<Material> materials() const {
+    std::vector<Material> all{stone, sleeper};
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }
 };
 
 /// Figures of a finished bed. All are stored in the bed file, so a loaded bed reports what the built one did.

@@ -89,7 +89,7 @@ void Builder::make_stones() {
   model_.bodies.push_back(body);
   model_.pad_body = sleeper;
   model_.materials = physics_.materials();
-  model_.gravity = physics_.gravity;
+  model_.gravity = physics_.gravity, model_.lining = physics_.lining;
   make_batches(model_);
   state_ = make_state(model_, {Placement{}});
   spdlog::info("bed: {} stones in the layer, {} in crib and shoulder", layer_.size(), crib_.size());
@@ -104,7 +104,8 @@ void Builder::add_planes() {
                            Vector3d::Zero(),
                            physics_.ground_friction,
                            true,
-                           true});
+                           true,
+                           physics_.ground});
   model_.planes.push_back({"symmetry", Vector3d::Zero(), Vector3d::UnitY(), Vector3d::Zero(), 0.0, true, false});
   model_.planes.push_back({"bay_begin", {-half, 0, 0}, Vector3d::UnitX(), Vector3d::Zero(), 0.0, true, true});
   model_.planes.push_back({"bay_end", {half, 0, 0}, -Vector3d::UnitX(), Vector3d::Zero(), 0.0, true, true});

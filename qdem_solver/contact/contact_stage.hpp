@@ -14,6 +14,8 @@ namespace qdem {
 struct ContactReport {
   std::int64_t candidates = 0;       ///< entries of the candidate list
   std::int64_t live = 0;             ///< contacts that carry a force
+  std::int64_t on_lining = 0;        ///< of these, with the pad body's lined bottom
+  std::int64_t on_bearing = 0;       ///< of these, with planes that have a bearing
   double coordination_number = 0.0;  ///< mean number of other bodies that a stone touches [-]
   double largest_penetration = 0.0;  ///< of the rounded surfaces [m]
   double elastic_energy = 0.0;       ///< normal and tangential springs [J]
@@ -34,8 +36,8 @@ inline double near_gap(const ContactLaw& law) {
 /// Every sum is taken in an order fixed by the candidate list, so results do not depend on the number of threads.
 class ContactStage {
  public:
-  /// The model must outlive the stage; its contact law (not the skin) and its planes' points and velocities may change
-  /// between calls, nothing else.
+  /// The model must outlive the stage; its contact law (not the skin), bearings, and its planes' points and velocities
+  /// may change between calls, nothing else.
   explicit ContactStage(const Model& model);
   ~ContactStage();
 

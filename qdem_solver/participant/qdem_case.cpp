@@ -6,6 +6,7 @@
 
 #include "proto/error.hpp"
 #include "qdem_solver/contact/calibration.hpp"
+#include "qdem_solver/participant/layers_case.hpp"
 
 namespace qdem {
 namespace {
@@ -101,13 +102,14 @@ void read_materials(const Section& qdem, BedPhysics& physics) {
 
 /// A material that nothing is made of is a slip of the pen.
 void check_use(const proto::CaseFile& file, const BedPhysics& physics) {
-  const auto used = file.section("bed").texts_or("stone_materials", {"stone"});
+  auto used = file.section("bed").texts_or("stone_materials", {"stone"});
+  used.push_back(subgrade_material(file.section("qdem")));
   for (const Material& material : physics.others) {
     if (std::count(used.begin(), used.end(), material.name) > 0) continue;
     const std::string nearest = proto::nearest_name(material.name, std::vector<std::string>{"stone", "sleeper"});
-    file.section("qdem").fail(
-        "material", "nothing is made of the material '" + material.name + "'",
-        nearest.empty() ? "name it in [bed] stone_materials, or remove it" : "did you mean '" + nearest + "'?");
+    file.section("qdem").fail("material", "nothing is made of the material '" + material.name + "'",
+                              nearest.empty() ? "name it in [bed] stone_materials or [qdem.subgrade], or remove it"
+                                              : "did you mean '" + nearest + "'?");
   }
 }
 
@@ -162,6 +164,7 @@ QdemCase read_qdem_case(const proto::CaseFile& file) {
   result.initialise_damping =
       section.number_or("initialise_damping", result.initialise_damping, Range::between(0, 0.95));
   read_materials(section, result.physics);
+  read_layers(section, result.physics);
   check_use(file, result.physics);
   read_contact(section.section("contact"), result.physics);
   result.sensors = read_sensors(section);

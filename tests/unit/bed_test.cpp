@@ -319,6 +319,15 @@ TEST(BedHash, KnowsTheMixture) {
   EXPECT_EQ(hash(""), hash(granite));  // named, not used
 }
 
+TEST(BedHash, KnowsPadAndGround) {
+  const auto file = proto::CaseFile::load(case_with(""));
+  qdem::BedPhysics rigid, pad, ground;
+  pad.lining = ground.ground = {1e6, 3e5, 100, 30, 1e-3};
+  const auto bare = bed_hash(file, rigid), lined = bed_hash(file, pad);
+  EXPECT_NE(bare, lined);
+  EXPECT_NE(lined, bed_hash(file, ground));
+}
+
 TEST(BedHash, KnowsTheSleepersSections) {
   const auto hash = [](const std::string& bed) { return qdem::bed_hash(proto::CaseFile::load(case_with(bed)), {}); };
   const std::string known = "sleeper = \"B70\"\n";
@@ -365,6 +374,7 @@ TEST(BedFile, RoundTripIsBitwise) {
   qdem::BedPhysics physics;
   physics.stone = {"stone", 6e10, 0.25, 2700, 0, 0}, physics.sleeper = {"sleeper", 4e10, 0.2, 2400, 0, 0};
   physics.contact.normal_stiffness = 1e6, physics.contact.friction = 0.5, physics.contact.rounding = 1e-3;
+  physics.ground.normal_stiffness = 2e6, physics.lining.normal_stiffness = 3e6;
   const qdem::Bed bed = two_cubes(physics);
   ASSERT_GT(bed.state.contact.keys.size(), 4u);
   const auto folder = std::filesystem::temp_directory_path() / ("bed_file_" + std::to_string(::getpid()));
@@ -384,6 +394,8 @@ TEST(BedFile, RoundTripIsBitwise) {
   EXPECT_EQ(bed.state.contact.travel, read.state.contact.travel);
   EXPECT_EQ(bed.model.n_values, read.model.n_values);
   EXPECT_EQ(bed.model.planes[0].point, read.model.planes[0].point);
+  EXPECT_EQ(read.model.planes[0].bearing.normal_stiffness, 2e6);
+  EXPECT_EQ(read.model.lining.normal_stiffness, 3e6);
   EXPECT_EQ(bed.model.templates[0].triangles.size(), read.model.templates[0].triangles.size());
   EXPECT_EQ(bed.report.porosity_layer, read.report.porosity_layer);
   EXPECT_EQ(bed.report.notes, read.report.notes);
