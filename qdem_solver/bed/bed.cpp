@@ -12,6 +12,7 @@
 #include "proto/error.hpp"
 #include "qdem_solver/bed/builder.hpp"
 #include "qdem_solver/bed/settings.hpp"
+#include "qdem_solver/engine/stability.hpp"
 #include "qdem_solver/output/bed_file.hpp"
 
 namespace qdem {
@@ -183,6 +184,16 @@ Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::
   write_bed_file(path.string(), bed);
   spdlog::info("bed: stored as {}", path.string());
   return bed;
+}
+
+SleeperFigures sleeper_figures(const proto::CaseFile& file, const BedPhysics& physics) {
+  const bed::Settings settings = bed::read_settings(file);
+  Model model;
+  model.materials = {physics.sleeper};
+  model.templates.push_back(bed::sleeper_mesh("sleeper", settings.sleeper, settings.sleeper_cells));
+  model.bodies.resize(1);
+  make_batches(model);
+  return {2 * model.body_mass(0), largest_stable_step(element_rates(model).front())};
 }
 
 void check_bed(const proto::CaseFile& file) {

@@ -75,6 +75,15 @@ Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::
 /// cache. Throws as make_bed for bad keys, missing_input for a stone file that cannot be read.
 std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics);
 
+/// What the case's sleeper weighs and costs by itself, before any bed is built.
+struct SleeperFigures {
+  double mass = 0.0;        ///< of the whole sleeper as meshed [kg]
+  double step_bound = 0.0;  ///< largest stable step of the half sleeper without contacts [s]
+};
+
+/// Throws as make_bed for bad keys.
+SleeperFigures sleeper_figures(const proto::CaseFile& file, const BedPhysics& physics);
+
 /// Reads and checks [bed] and the geometry it implies without building anything. Throws as make_bed for bad keys.
 void check_bed(const proto::CaseFile& file);
 
