@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 #include "proto/error.hpp"
 #include "qdem_solver/contact/candidates.hpp"
@@ -72,6 +73,25 @@ struct ContactStage::Data {
     return state.contact.travel[key.body_a] + other;
   }
 
+  /// A new list finds no side of the pad body's bottom that is deeper inside another body than it reaches. Rigid
+  /// contacts never are; on a soft pad they may be.
+  void check_lining(const State& state) const {
+    const ContactState& contact = state.contact;
+    if (model.lining.is_rigid() || list_id != contact.list_id) return;
+    const double deepest = 2 * model.contact.rounding + reach() - skin;
+    for (const std::int64_t i : live.all()) {
+      if (forces[i].overlap < deepest || contact.keys[i].is_plane() || !laws.is_lined(contact, i)) continue;
+      std::ostringstream problem, where;
+      problem << "the pad under the sleeper is pressed in by " << 1e3 * forces[i].overlap
+              << " mm, deeper than contacts are followed (" << 1e3 * deepest << " mm)";
+      where << "step " << state.step << ", t = " << state.time << " s, body '"
+            << model.bodies[contact.keys[i].body_a].name << "' and body '" << model.bodies[contact.keys[i].body_b].name
+            << "'";
+      throw proto::Error(proto::ExitCode::numerics, problem.str(), where.str(),
+                         "raise its footprint_m2 or bedding_modulus_n_per_m3, or [qdem.contact] rounding_m");
+    }
+  }
+
   void fit_scratch(const ContactState& contact) {
     if (list_id == contact.list_id && forces.size() == contact.keys.size()) return;
     forces.resize(contact.keys.size());
@@ -128,6 +148,7 @@ bool ContactStage::update_candidates(State& state, const std::vector<double>& mo
     d.fit_scratch(contact);
     return false;
   }
+  d.check_lining(state);
   CandidateList list = find_candidates(d.model, d.skins, state.x.data(), d.reach(), state.time);
   contact.slip = carried_slip(contact, list.keys);
   contact.keys = std::move(list.keys);

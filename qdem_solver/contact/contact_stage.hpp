@@ -43,7 +43,8 @@ class ContactStage {
 
   /// Takes `moves` [m], of each body an upper bound of how far any of its nodes moved since the last call (empty: none
   /// did); rebuilds the candidate list when a body or plane has moved by more than half the skin. Returns whether it
-  /// rebuilt. Slip of surviving keys is kept.
+  /// rebuilt. Slip of surviving keys is kept. Throws proto::Error (numerics) where the pad body's lining is pressed in
+  /// deeper than a list reaches.
   bool update_candidates(State& state, const std::vector<double>& moves = {});
 
   /// Forces of all contacts at positions state.x and velocities state.v; advances the slip by dt [s]. Runs with the

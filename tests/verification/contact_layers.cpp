@@ -104,11 +104,13 @@ TEST(UnderBallastMat, UniformPressureGivesPressureOverBeddingModulus) {
   }
 }
 
-TEST(UnderSleeperPad, IsInSeriesWithTheContactOfItsBottomOnly) {
+namespace {
+
+/// Body 0 on a block that is held, too coarse to have a particle under it.
+Model block_on_block() {
   Model model = block_on_plane({2, 3, 1}, {});
-  const int n = bottom_points(model);
-  model.contact.normal_stiffness = 5e5;  // gives way about as much as the pad
-  // On a block that is held, too coarse to have a particle under the sleeper.
+  model.contact.normal_stiffness = 5e5;  // gives way about as much as a pad
+  model.pad_body = 0;
   model.templates.push_back(tests::box_template({1, 1, 1}, {1.0, 1.0, 0.2}));
   qdem::Body held;
   held.kind = qdem::BodyKind::other, held.name = "held", held.template_id = 1;
@@ -116,15 +118,42 @@ TEST(UnderSleeperPad, IsInSeriesWithTheContactOfItsBottomOnly) {
   model.planes.clear();
   qdem::make_batches(model);
   for (int i = 0; i < model.shape(1).n_nodes(); ++i) model.fixities.push_back({1, i, 7u});
+  return model;
+}
+
+std::vector<qdem::Placement> on_top(const Model& model) {
   std::vector<qdem::Placement> places(2);
   places[1].translation = {-0.3, -0.27, -0.2 - 2 * model.contact.rounding};
-  model.pad_body = 0, model.lining = mat(n);
+  return places;
+}
+
+}  // namespace
+
+TEST(UnderSleeperPad, IsInSeriesWithTheContactOfItsBottomOnly) {
+  Model model = block_on_block();
+  const auto places = on_top(model);
+  const int n = bottom_points(model);
+  model.lining = mat(n);
   const double weight = 9.81 * model.body_mass(0), bare = weight / (n * model.contact.normal_stiffness);
   const double expected = weight / (bedding_modulus * area) + bare;
   EXPECT_TRUE(near_rel(deflection(model, places, expected), expected, 1e-3));
   // Of the block below the top is not lined.
   model.pad_body = 1;
   EXPECT_TRUE(near_rel(deflection(model, places, bare), bare, 1e-3));
+}
+
+TEST(UnderSleeperPad, PressedDeeperThanContactsAreFollowedIsAnError) {
+  Model model = block_on_block();
+  model.lining = {1e4, 3e3, 0.0, 0.0, 1e-3};
+  model.pad_body_load = {0, 0, -1.2 * 4e-3 * 1e4 * bottom_points(model)};
+  try {
+    deflection(model, on_top(model), 4e-3);
+    FAIL() << "accepted";
+  } catch (const proto::Error& error) {
+    EXPECT_EQ(error.code(), proto::ExitCode::numerics);
+    EXPECT_NE(std::string(error.what()).find("deeper than contacts are followed (4 mm)"), std::string::npos)
+        << error.what();
+  }
 }
 
 namespace {
