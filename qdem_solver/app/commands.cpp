@@ -14,6 +14,7 @@
 #include "proto/error.hpp"
 #include "qdem_solver/bed/stone_export.hpp"
 #include "qdem_solver/bench/report.hpp"
+#include "qdem_solver/contact/entry_laws.hpp"
 #include "qdem_solver/output/bed_file.hpp"
 #include "qdem_solver/output/fields_file.hpp"
 #include "qdem_solver/participant/run_alone.hpp"
@@ -42,6 +43,22 @@ void print_facts(const std::vector<proto::Fact>& facts) {
 void check_command(const proto::CaseFile& file) {
   check_case(file);
   check_bed(file);
+}
+
+void print_figures(const proto::CaseFile& file) {
+  const BedPhysics physics = read_qdem_case(file).physics;
+  const SleeperFigures sleeper = sleeper_figures(file, physics);
+  fmt::print("sleeper                   {:.1f} kg, step bound {:.4g} s without contacts\n", sleeper.mass,
+             sleeper.step_bound);
+  const auto print_contact = [&](const char* name, const Bearing& bearing) {
+    const ContactLaw law = in_series(physics.contact, bearing);
+    fmt::print("{:25} {:.4g} N/m", name, law.normal_stiffness);
+    if (!bearing.is_rigid()) fmt::print(" and {:.4g} N s/m in series", law.normal_damping);
+    fmt::print("\n");
+  };
+  print_contact("contact point", {});
+  if (!physics.lining.is_rigid()) print_contact("  on the sleeper's pad", physics.lining);
+  if (!physics.ground.is_rigid()) print_contact("  on the ground", physics.ground);
 }
 
 Bed bed_of_case(const proto::CaseFile& file, const BedPhysics& physics) {

@@ -12,6 +12,9 @@ namespace qdem {
 /// `qdem_solver check`: every section that this program reads. Throws proto::Error (config).
 void check_command(const proto::CaseFile& file);
 
+/// Prints what the case's sleeper weighs, the step it allows, and the contact's stiffness on pad and ground.
+void print_figures(const proto::CaseFile& file);
+
 /// The bed of the case, built or from the cache.
 Bed bed_of_case(const proto::CaseFile& file, const BedPhysics& physics);
 

@@ -23,7 +23,9 @@ struct Arguments {
 };
 
 void check(const Arguments& arguments) {
-  qdem::check_command(proto::CaseFile::load(arguments.case_path));
+  const auto file = proto::CaseFile::load(arguments.case_path);
+  qdem::check_command(file);
+  qdem::print_figures(file);
 }
 
 void participate(const Arguments& arguments) {
@@ -64,7 +66,8 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(0, 100000));
   stones->callback([&] { qdem::stones_command(arguments.case_path, arguments.stones, arguments.roughness); });
 
-  auto* checker = app.add_subcommand("check", "validate the case without running it");
+  auto* checker =
+      app.add_subcommand("check", "validate the case without running it; what its sleeper weighs and costs");
   checker->add_option("--case", arguments.case_path, "case file")->required();
   checker->callback([&] { check(arguments); });
 

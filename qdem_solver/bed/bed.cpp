@@ -12,6 +12,7 @@
 #include "proto/error.hpp"
 #include "qdem_solver/bed/builder.hpp"
 #include "qdem_solver/bed/settings.hpp"
+#include "qdem_solver/engine/stability.hpp"
 #include "qdem_solver/output/bed_file.hpp"
 
 namespace qdem {
@@ -44,9 +45,9 @@ class InputHash {
 void add_settings(InputHash& hash, const bed::Settings& s) {
   for (const double value : {static_cast<double>(bed_file_format),
                              static_cast<double>(s.seed),
-                             s.sleeper_length,
-                             s.sleeper_width,
-                             s.sleeper_height,
+                             2 * s.sleeper.half_length(),
+                             s.sleeper.width(),
+                             s.sleeper.height(),
                              static_cast<double>(s.sleeper_cells),
                              s.depth,
                              s.crib_height,
@@ -82,13 +83,18 @@ void add_settings(InputHash& hash, const bed::Settings& s) {
   }
   hash.add(s.gradation.sizes), hash.add(s.gradation.passing);
   for (const auto& seat : s.seats) hash.add(seat.origin);
+  if (!s.sleeper.is_tapered()) return;
+  for (const auto& section : s.sleeper.sections) {
+    for (const double value : {section.place, section.height, section.bottom_width, section.top_width}) hash.add(value);
+  }
+}
+
+void add_material(InputHash& hash, const Material& m) {
+  for (const double value : {m.young, m.poisson, m.density, m.lame_viscosity, m.shear_viscosity}) hash.add(value);
 }
 
 void add_physics(InputHash& hash, const BedPhysics& p) {
-  for (const Material* m : {&p.stone, &p.sleeper}) {
-    for (const double value : {m->young, m->poisson, m->density, m->lame_viscosity, m->shear_viscosity})
-      hash.add(value);
-  }
+  add_material(hash, p.stone), add_material(hash, p.sleeper);
   const ContactLaw& c = p.contact;
   for (const double value : {c.normal_stiffness, c.tangential_ratio, c.damping_ratio, c.friction, c.rounding, c.skin}) {
     hash.add(value);
@@ -96,6 +102,25 @@ void add_physics(InputHash& hash, const BedPhysics& p) {
   hash.add(p.ground_friction);
   hash.add(p.gravity);
   hash.add(static_cast<double>(p.stone.interaction)), hash.add(static_cast<double>(p.sleeper.interaction));
+}
+
+/// Rigid ones add nothing.
+void add_bearings(InputHash& hash, const BedPhysics& p) {
+  if (p.lining.is_rigid() && p.ground.is_rigid()) return;
+  for (const Bearing* b : {&p.lining, &p.ground}) {
+    for (const double value : {b->normal_stiffness, b->tangential_stiffness, b->normal_damping, b->tangential_damping})
+      hash.add(value);
+  }
+}
+
+/// A bed of the material "stone" alone adds nothing.
+void add_mixture(InputHash& hash, const std::vector<bed::Ingredient>& mixture, const BedPhysics& p) {
+  if (mixture.size() == 1 && mixture[0].material_id == 0) return;
+  const auto materials = p.materials();
+  for (const bed::Ingredient& part : mixture) {
+    hash.add(part.share);
+    add_material(hash, materials.at(part.material_id));
+  }
 }
 
 /// Names and content. A bed of generated stones adds nothing.
@@ -126,6 +151,8 @@ std::string hash_of(const bed::Settings& settings, const BedPhysics& physics) {
   add_settings(hash, settings);
   add_physics(hash, physics);
   add_stone_files(hash, settings.shapes.files);
+  add_mixture(hash, settings.mixture, physics);
+  add_bearings(hash, physics);
   return hash.hex();
 }
 
@@ -157,6 +184,16 @@ Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::
   write_bed_file(path.string(), bed);
   spdlog::info("bed: stored as {}", path.string());
   return bed;
+}
+
+SleeperFigures sleeper_figures(const proto::CaseFile& file, const BedPhysics& physics) {
+  const bed::Settings settings = bed::read_settings(file);
+  Model model;
+  model.materials = {physics.sleeper};
+  model.templates.push_back(bed::sleeper_mesh("sleeper", settings.sleeper, settings.sleeper_cells));
+  model.bodies.resize(1);
+  make_batches(model);
+  return {2 * model.body_mass(0), largest_stable_step(element_rates(model).front())};
 }
 
 void check_bed(const proto::CaseFile& file) {

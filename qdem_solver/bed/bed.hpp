@@ -14,9 +14,19 @@ namespace qdem {
 /// What the bed has to know of `[qdem]`; whoever reads that section hands it over.
 struct BedPhysics {
   Material stone, sleeper;
+  std::vector<Material> others;  ///< further materials that a case names
   ContactLaw contact;            ///< between bodies, at real stiffness; also the planes' k_n, k_t, damping, rounding
   double ground_friction = 0.5;  ///< of the plane under the ballast [-]
+  Bearing lining;                ///< under-sleeper pad
+  Bearing ground;                ///< behind the plane under the ballast: mat, subgrade
   Eigen::Vector3d gravity{0, 0, -9.81};  ///< [m/s2]
+
+  /// All materials as Model::materials holds them: stone, sleeper, others.
+  std::vector<Material> materials() const {
+    std::vector<Material> all{stone, sleeper};
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }
 };
 
 /// Figures of a finished bed. All are stored in the bed file, so a loaded bed reports what the built one did.
@@ -44,9 +54,9 @@ struct BedReport {
 
 /// A bed at rest: time 0, velocities of the last relaxation step as they are, contact history kept.
 ///
-/// Body 0 is the sleeper (`model.pad_body` = 0), bodies 1.. are stones. `model.materials` are {stone, sleeper}. Planes:
-/// "ground", "symmetry" (y = 0, stones only), "bay_begin", "bay_end". Fixities hold the sleeper's cut at u_y = 0. No
-/// pads: the caller adds them. Local damping and drag are zero.
+/// Body 0 is the sleeper (`model.pad_body` = 0), bodies 1.. are stones. `model.materials` are BedPhysics::materials().
+/// Planes: "ground", "symmetry" (y = 0, stones only), "bay_begin", "bay_end". Fixities hold the sleeper's cut at u_y =
+/// 0. No pads: the caller adds them. Local damping and drag are zero.
 struct Bed {
   Model model;
   State state;
@@ -64,6 +74,15 @@ Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::
 /// XXH3-64 of every input of the bed, the stone files' content among them: 16 hexadecimal digits, the name in the
 /// cache. Throws as make_bed for bad keys, missing_input for a stone file that cannot be read.
 std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics);
+
+/// What the case's sleeper weighs and costs by itself, before any bed is built.
+struct SleeperFigures {
+  double mass = 0.0;        ///< of the whole sleeper as meshed [kg]
+  double step_bound = 0.0;  ///< largest stable step of the half sleeper without contacts [s]
+};
+
+/// Throws as make_bed for bad keys.
+SleeperFigures sleeper_figures(const proto::CaseFile& file, const BedPhysics& physics);
 
 /// Reads and checks [bed] and the geometry it implies without building anything. Throws as make_bed for bad keys.
 void check_bed(const proto::CaseFile& file);

@@ -78,19 +78,18 @@ void Builder::make_stones() {
   const int n_templates = s.shapes.n_templates;
   const double solid = 1 - s.target_porosity;
   const double layer = s.wall() * s.spacing * s.depth;
-  const double crib = (s.wall() * s.spacing - s.half_length() * s.sleeper_width) * s.crib_height;
+  const double crib = (s.wall() * s.spacing - s.sleeper.bottom_area()) * s.crib_height;
   layer_ = draw_stones(s.gradation, n_templates, volume_of, solid * layer, random_);
   if (crib > 0) crib_ = draw_stones(s.gradation, n_templates, volume_of, solid * crib, random_);
+  mix_materials(s.mixture, volume_of, layer_), mix_materials(s.mixture, volume_of, crib_);
 
-  const double cell = s.sleeper_height / s.sleeper_cells;
-  model_.templates.push_back(box_shape("sleeper", {-s.sleeper_width / 2, 0, -s.sleeper_height},
-                                       {s.sleeper_width / 2, s.half_length(), 0}, cell));
+  model_.templates.push_back(sleeper_mesh("sleeper", s.sleeper, s.sleeper_cells));
   Body body;
   body.kind = BodyKind::sleeper, body.name = "sleeper", body.template_id = n_templates, body.material_id = 1;
   model_.bodies.push_back(body);
   model_.pad_body = sleeper;
-  model_.materials = {physics_.stone, physics_.sleeper};
-  model_.gravity = physics_.gravity;
+  model_.materials = physics_.materials();
+  model_.gravity = physics_.gravity, model_.lining = physics_.lining;
   make_batches(model_);
   state_ = make_state(model_, {Placement{}});
   spdlog::info("bed: {} stones in the layer, {} in crib and shoulder", layer_.size(), crib_.size());
@@ -105,7 +104,8 @@ void Builder::add_planes() {
                            Vector3d::Zero(),
                            physics_.ground_friction,
                            true,
-                           true});
+                           true,
+                           physics_.ground});
   model_.planes.push_back({"symmetry", Vector3d::Zero(), Vector3d::UnitY(), Vector3d::Zero(), 0.0, true, false});
   model_.planes.push_back({"bay_begin", {-half, 0, 0}, Vector3d::UnitX(), Vector3d::Zero(), 0.0, true, true});
   model_.planes.push_back({"bay_end", {half, 0, 0}, -Vector3d::UnitX(), Vector3d::Zero(), 0.0, true, true});
@@ -122,7 +122,7 @@ void Builder::add_stones(const std::vector<Stone>& stones, const std::vector<Rec
   for (std::size_t i = 0; i < stones.size(); ++i) {
     Body body;
     body.name = "stone_" + std::to_string(model_.bodies.size());
-    body.template_id = stones[i].template_id;
+    body.template_id = stones[i].template_id, body.material_id = stones[i].material_id;
     body.scale = scales[i];
     model_.bodies.push_back(body);
   }
@@ -187,25 +187,25 @@ void Builder::pour_layer() {
   const double fall = (top_of_stones() - s.ground_level()) / s.pour_speed;
   run({0.4 * fall, 2 * fall}, {poured_speed});
   stage_ = "tamping the layer";
-  sleeper_bottom_ = tamp(-s.sleeper_height, layer_pressure);
+  sleeper_bottom_ = tamp(-s.sleeper.height(), layer_pressure);
 }
 
 void Builder::pour_crib() {
   const Settings& s = settings_;
   const double half = s.spacing / 2, gap = 2 * physics_.contact.rounding;
   for (int i = 0; i < model_.shape(sleeper).n_nodes(); ++i) {
-    const Vector3d lifted(0, 0, sleeper_bottom_ + s.sleeper_height + physics_.contact.rounding);
+    const Vector3d lifted(0, 0, sleeper_bottom_ + s.sleeper.height() + physics_.contact.rounding);
     State::scatter(model_, state_.x, sleeper, i, model_.shape(sleeper).nodes[i] + lifted);
     State::scatter(model_, state_.v, sleeper, i, Vector3d::Zero());
   }
   if (crib_.empty()) return;
   stage_ = "pouring crib and shoulder";
-  const double side = s.sleeper_width / 2 + gap, end = s.half_length() + gap;
+  const double side = s.sleeper.width() / 2 + gap, end = s.half_length() + gap;
   const std::vector<Rectangle> floor = {
       {-half + gap, -side, gap, end}, {side, half - gap, gap, end}, {-half + gap, half - gap, end, s.wall() - gap}};
   add_stones(crib_, floor, top_of_stones() + gap);
   drop_contacts();
-  const double fall = (top_of_stones() + s.sleeper_height) / s.pour_speed;
+  const double fall = (top_of_stones() + s.sleeper.height()) / s.pour_speed;
   run({0.4 * fall, 2 * fall}, {poured_speed});
   stage_ = "tamping crib and shoulder";
   tamp(sleeper_bottom_ + s.crib_height, crib_pressure);

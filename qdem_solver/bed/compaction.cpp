@@ -45,7 +45,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 void Builder::soften(const Softness& softness) {
   const double share = softness.young / physics_.stone.young;
-  model_.materials = {physics_.stone, physics_.sleeper};
+  model_.materials = physics_.materials();
   for (Material& material : model_.materials) {
     material.young *= share;
     material.lame_viscosity *= share;  // keeps the retardation time

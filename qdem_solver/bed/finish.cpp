@@ -66,12 +66,12 @@ void Builder::finish() {
       static_cast<double>(report_.elements - model_.shape(sleeper).n_tets()) / static_cast<double>(report_.stones);
   const double half = s.gradation.size_at(0.5) / 2, r = physics_.contact.rounding, ground = s.ground_level() + back[2];
   const double pitch = std::max(s.gradation.size_at(0.5) / 25, 1e-3);
-  const Vector3d low(-s.sleeper_width / 2, half, ground + half),
-      high(s.sleeper_width / 2, s.half_length() - half, -s.sleeper_height - half);
+  const Vector3d low(-s.sleeper.width() / 2, half, ground + half),
+      high(s.sleeper.width() / 2, s.half_length() - half, -s.sleeper.height() - half);
   report_.porosity_under_sleeper = porosity(model_, state_, low, high, pitch, r);
   const Vector3d wide(s.spacing / 2 - half, s.half_length(), 0);
   report_.porosity_layer = porosity(model_, state_, Vector3d(-wide[0], half, ground),
-                                    Vector3d(wide[0], wide[1], -s.sleeper_height), pitch, r);
+                                    Vector3d(wide[0], wide[1], -s.sleeper.height()), pitch, r);
 }
 
 void Builder::drop_spare_lanes() {

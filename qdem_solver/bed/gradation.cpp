@@ -47,4 +47,21 @@ std::vector<Stone> draw_stones(const Gradation& gradation, int n_templates, cons
   return stones;
 }
 
+void mix_materials(const std::vector<Ingredient>& mixture, const StoneVolume& volume_of, std::vector<Stone>& stones) {
+  std::vector<double> given(mixture.size(), 0.0);
+  double whole = 0.0, total = 0.0;
+  for (const Ingredient& part : mixture) whole += part.share;
+  for (Stone& stone : stones) {
+    const double own = volume_of(stone.template_id, stone.size);
+    total += own;
+    std::size_t lacking = 0;
+    for (std::size_t i = 1; i < mixture.size(); ++i) {
+      const auto lack = [&](std::size_t part) { return mixture[part].share / whole * total - given[part]; };
+      if (lack(i) > lack(lacking)) lacking = i;
+    }
+    given[lacking] += own;
+    stone.material_id = mixture[lacking].material_id;
+  }
+}
+
 }  // namespace qdem::bed

@@ -1,7 +1,9 @@
 #include "qdem_solver/bed/settings.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "proto/error.hpp"
 #include "qdem_solver/bed/stone_files.hpp"
 
 namespace qdem::bed {
@@ -48,6 +50,28 @@ void read_stone_files(const Section& bed, StoneShapes& shapes) {
   shapes.n_templates = static_cast<int>(shapes.files.size());
 }
 
+/// `names`: of all materials.
+std::vector<Ingredient> read_mixture(const Section& bed, const std::vector<std::string>& names) {
+  std::vector<Ingredient> mixture;
+  for (const std::string& name : bed.texts_or("stone_materials", {"stone"})) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      const std::string nearest = proto::nearest_name(name, names);
+      bed.fail("stone_materials", "there is no material '" + name + "'",
+               nearest.empty() ? "add a [[qdem.material]] with that name" : "did you mean '" + nearest + "'?");
+    }
+    mixture.push_back({static_cast<int>(found - names.begin()), 1.0});
+  }
+  if (mixture.empty()) bed.fail("stone_materials", "stones need a material");
+  const auto shares =
+      bed.numbers_or("stone_material_shares", std::vector<double>(mixture.size(), 1.0), Range::positive());
+  if (shares.size() != mixture.size()) {
+    bed.fail("stone_material_shares", "as many shares as materials are needed, " + std::to_string(mixture.size()));
+  }
+  for (std::size_t i = 0; i < shares.size(); ++i) mixture[i].share = shares[i];
+  return mixture;
+}
+
 StoneShapes read_shapes(const Section& bed, std::uint64_t seed) {
   StoneShapes shapes;
   shapes.seed = seed;
@@ -60,18 +84,67 @@ StoneShapes read_shapes(const Section& bed, std::uint64_t seed) {
   return shapes;
 }
 
+/// Height, bottom width, top width; of `known` where there is one and the key is not given.
+SleeperSection read_section(const Section& bed, const std::string& key, const SleeperSection* known) {
+  if (known != nullptr && !bed.has(key)) return *known;
+  const auto values = bed.numbers(key, 3, Range::positive());
+  if (values[2] > values[1]) bed.fail(key, "the top is wider than the bottom", "give height, bottom width, top width");
+  return {0.0, values[0], values[1], values[2]};
+}
+
+SleeperShape read_tapered(const Section& bed, const std::optional<SleeperShape>& known) {
+  const SleeperSection* of_known = known ? known->sections.data() : nullptr;
+  const auto section = [&](const char* key, int i) { return read_section(bed, key, known ? of_known + i : nullptr); };
+  const SleeperSection centre = section("sleeper_centre_m", 0), seat = section("sleeper_seat_m", 1),
+                       end = section("sleeper_end_m", 3);
+  for (const auto& [key, height] : {std::pair("sleeper_centre_m", centre.height), {"sleeper_end_m", end.height}}) {
+    if (height > seat.height) bed.fail(key, "it is higher than the rail seat", "lower it: the seat is the top, z = 0");
+  }
+  const bool own_length = !known || bed.has("sleeper_length_m"), own_range = !known || bed.has("sleeper_seat_range_m");
+  const double length = own_length ? bed.number("sleeper_length_m", Range::positive()) : 2 * known->half_length();
+  std::pair<double, double> range;
+  if (own_range) {
+    const auto values = bed.numbers("sleeper_seat_range_m", 2, Range::positive());
+    range = {values[0], values[1]};
+  } else {
+    range = known->seat_range();
+  }
+  if (!(range.first < range.second && range.second < length / 2)) {
+    bed.fail(own_range ? "sleeper_seat_range_m" : "sleeper_length_m",
+             "the rail seat must begin before it ends, and end before the sleeper does",
+             "places are distances from the track's centre");
+  }
+  return tapered_sleeper(length, range, centre, seat, end);
+}
+
+void refuse_keys(const Section& bed, const std::vector<const char*>& keys, const std::string& problem) {
+  for (const char* key : keys) {
+    if (bed.has(key)) bed.fail(key, problem, "remove it");
+  }
+}
+
+SleeperShape read_sleeper(const Section& bed) {
+  const std::string name = bed.choice_or("sleeper", "box", {"box", "tapered", "3PR", "B70"});
+  if (name != "box") {
+    refuse_keys(bed, {"sleeper_width_m", "sleeper_height_m"}, "it is for a box, and the sleeper is \"" + name + "\"");
+    return read_tapered(bed, name == "tapered" ? std::nullopt : std::optional(known_sleeper(name)));
+  }
+  refuse_keys(bed, {"sleeper_centre_m", "sleeper_seat_m", "sleeper_end_m", "sleeper_seat_range_m"},
+              "it is for a tapered sleeper, and the sleeper is a box");
+  const double length = bed.number_or("sleeper_length_m", 2.4, Range::positive());
+  const double width = bed.number_or("sleeper_width_m", 0.26, Range::positive());
+  return box_sleeper(length, width, bed.number_or("sleeper_height_m", 0.2, Range::positive()));
+}
+
 void read_geometry(const Section& bed, Settings& s) {
-  bed.choice_or("sleeper", "box", {"box"});
-  s.sleeper_length = bed.number_or("sleeper_length_m", 2.4, Range::positive());
-  s.sleeper_width = bed.number_or("sleeper_width_m", 0.26, Range::positive());
-  s.sleeper_height = bed.number_or("sleeper_height_m", 0.2, Range::positive());
+  s.sleeper = read_sleeper(bed);
   s.sleeper_cells = static_cast<int>(bed.integer_or("sleeper_cells_through_height", 4, Range::between(1, 20)));
   s.depth = bed.number_or("depth_m", 0.2, Range::positive());
   s.crib_height = bed.number_or("crib_height_m", 0.15, Range::not_negative());
   s.shoulder_width = bed.number_or("shoulder_width_m", 0.2, Range::not_negative());
   s.shoulder_slope = bed.number_or("shoulder_slope", 1.5, Range::between(0, 4));
-  if (s.crib_height > s.sleeper_height) {
-    bed.fail("crib_height_m", "the crib would bury the sleeper, whose height is " + std::to_string(s.sleeper_height));
+  if (s.crib_height > s.sleeper.height()) {
+    bed.fail("crib_height_m", "the crib would bury the sleeper, whose height is " + std::to_string(s.sleeper.height()));
   }
 }
 
@@ -99,22 +172,55 @@ void read_limits(const Section& bed, Settings& s) {
   s.tilt_limit = bed.number_or("sleeper_tilt_limit_rad", 5e-3, Range::positive());
 }
 
+/// A pad lies on the plane part of the top.
+void check_pad(const Section& bed, const SleeperShape& sleeper, const proto::RailSeat& seat) {
+  const auto [first, last] = sleeper.seat_range();
+  const double y = std::abs(seat.origin[1]), half = seat.half_lengths[1];
+  if (y - half < first || y + half > last) {
+    bed.fail("sleeper_seat_range_m",
+             "rail seat '" + seat.name + "' reaches from " + std::to_string(y - half) + " to " +
+                 std::to_string(y + half) + " m, the sleeper's plane top from " + std::to_string(first) + " to " +
+                 std::to_string(last) + " m",
+             "move one of the two");
+  }
+  for (const auto& section : sleeper.sections) {
+    if (section.place == first && seat.half_lengths[0] > section.top_width / 2) {
+      bed.fail("sleeper_seat_m", "rail seat '" + seat.name + "' is wider than the sleeper's top");
+    }
+  }
+}
+
 void check_seats(const Section& bed, const Settings& s) {
   for (const auto& seat : s.seats) {
+    if (s.sleeper.is_tapered()) {
+      check_pad(bed, s.sleeper, seat);
+      continue;
+    }
     const double y = std::abs(seat.origin[1]);
     if (y + seat.half_lengths[1] > s.half_length()) {
       bed.fail("sleeper_length_m", "rail seat '" + seat.name + "' ends " +
                                        std::to_string(y + seat.half_lengths[1] - s.half_length()) +
                                        " m beyond the end of the sleeper");
     }
-    if (seat.half_lengths[0] > s.sleeper_width / 2) {
+    if (seat.half_lengths[0] > s.sleeper.width() / 2) {
       bed.fail("sleeper_width_m", "rail seat '" + seat.name + "' is wider than the sleeper");
     }
   }
-  if (s.sleeper_width >= s.spacing) bed.fail("sleeper_width_m", "the sleeper fills the bay");
+  if (s.sleeper.width() >= s.spacing) {
+    bed.fail(s.sleeper.is_tapered() ? "sleeper_seat_m" : "sleeper_width_m", "the sleeper fills the bay");
+  }
 }
 
 }  // namespace
+
+std::vector<std::string> material_names(const proto::CaseFile& file) {
+  std::vector<std::string> names{"stone", "sleeper"};
+  for (const Section& material : file.section("qdem").sections("material")) {
+    const std::string name = material.text_or("name", "");
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
 
 Settings read_settings(const proto::CaseFile& file) {
   const Section bed = file.section("bed"), track = file.section("track");
@@ -125,6 +231,7 @@ Settings read_settings(const proto::CaseFile& file) {
   read_geometry(bed, s);
   s.gradation = read_gradation(bed);
   s.shapes = read_shapes(bed, s.seed);
+  s.mixture = read_mixture(bed, material_names(file));
   read_procedure(bed, s);
   read_limits(bed, s);
   bed.finish();

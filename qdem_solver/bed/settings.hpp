@@ -8,6 +8,7 @@
 #include "proto/case/case_file.hpp"
 #include "proto/case/rail_seat.hpp"
 #include "qdem_solver/bed/gradation.hpp"
+#include "qdem_solver/bed/sleeper_shape.hpp"
 #include "qdem_solver/bed/stone_shape.hpp"
 
 namespace qdem::bed {
@@ -16,8 +17,8 @@ namespace qdem::bed {
 struct Settings {
   std::uint64_t seed = 1;
 
-  double sleeper_length = 0, sleeper_width = 0, sleeper_height = 0;  ///< whole sleeper [m]
-  int sleeper_cells = 4;                                             ///< through its height
+  SleeperShape sleeper;
+  int sleeper_cells = 4;  ///< through its height
 
   double depth = 0;           ///< of ballast under the sleeper [m]
   double crib_height = 0;     ///< of ballast beside the sleeper, above its bottom [m]
@@ -26,6 +27,7 @@ struct Settings {
 
   Gradation gradation;
   StoneShapes shapes;
+  std::vector<Ingredient> mixture{Ingredient{}};  ///< of the stones' materials
 
   double target_porosity = 0;  ///< the stones are drawn for [-]
   double pour_speed = 0;       ///< drag limits falling stones to it [m/s]
@@ -49,12 +51,16 @@ struct Settings {
   double spacing = 0;  ///< of sleepers, the bay's length [m]
   std::vector<proto::RailSeat> seats;
 
-  double half_length() const { return sleeper_length / 2; }
-  double ground_level() const { return -sleeper_height - depth; }      ///< z [m]
-  double crib_level() const { return -sleeper_height + crib_height; }  ///< z [m]
+  double half_length() const { return sleeper.half_length(); }
+  double ground_level() const { return -sleeper.height() - depth; }      ///< z [m]
+  double crib_level() const { return -sleeper.height() + crib_height; }  ///< z [m]
   /// Foot of the shoulder's slope: y of the formwork's wall [m].
   double wall() const { return half_length() + shoulder_width + shoulder_slope * (depth + crib_height); }
 };
+
+/// Names of the case's materials in the order of BedPhysics::materials(): "stone", "sleeper", then the others as they
+/// come in [[qdem.material]].
+std::vector<std::string> material_names(const proto::CaseFile& file);
 
 /// Reads and checks [bed], [track] and the rail seats. Throws proto::Error (config).
 Settings read_settings(const proto::CaseFile& file);

@@ -28,19 +28,21 @@ struct TouchForce {
 
 /// F_n = max(0, k_n delta - c_n v_n);  u_t turned into the tangent plane, then advanced by v_t dt;
 /// F_t = -k_t u_t - c_t v_t, limited to mu F_n with u_t reset so that the spring carries the limit.
-/// c = 2 zeta sqrt(m_eff k), so that bodies that meet in one point part with the restitution that zeta stands for. The
-/// standard DEM law (Cundall and Strack 1979).
+/// c = 2 zeta sqrt(m_eff k), so that bodies that meet in one point part with the restitution that zeta stands for, and
+/// the law's own dashpots beside it. The standard DEM law (Cundall and Strack 1979).
 class VoigtCoulombLaw {
  public:
   HOUSE_HOST_DEVICE VoigtCoulombLaw(const ContactLaw& law, double friction)
       : kn_(law.normal_stiffness),
         kt_(law.normal_stiffness * law.tangential_ratio),
+        cn_(law.normal_damping),
+        ct_(law.tangential_damping),
         zeta2_(2 * law.damping_ratio),
         friction_(friction) {}
 
   HOUSE_HOST_DEVICE TouchForce push(const Touch& touch, const Eigen::Vector3d& slip, double dt) const {
     const Eigen::Vector3d& n = touch.normal;
-    const double cn = zeta2_ * std::sqrt(touch.effective_mass * kn_) * touch.share;
+    const double cn = (zeta2_ * std::sqrt(touch.effective_mass * kn_) + cn_) * touch.share;
     TouchForce result;
     result.normal = kn_ * touch.overlap - cn * touch.normal_velocity;
     if (!(result.normal > 0)) result.normal = 0;
@@ -49,7 +51,7 @@ class VoigtCoulombLaw {
     const double kt = kt_ * touch.share;
     if (!(friction_ > 0) || !(kt > 0)) return result;
     const Eigen::Vector3d vt = touch.relative_velocity - n * n.dot(touch.relative_velocity);
-    const double ct = zeta2_ * std::sqrt(touch.effective_mass * kt_) * touch.share;
+    const double ct = (zeta2_ * std::sqrt(touch.effective_mass * kt_) + ct_) * touch.share;
     result.slip = turned(slip, n) + vt * dt;
     result.tangential = -kt * result.slip - ct * vt;
     const double size = result.tangential.norm(), limit = friction_ * result.normal;
@@ -68,7 +70,7 @@ class VoigtCoulombLaw {
     return after > 0 ? Eigen::Vector3d(flat * std::sqrt(before / after)) : flat;
   }
 
-  double kn_, kt_, zeta2_, friction_;
+  double kn_, kt_, cn_, ct_, zeta2_, friction_;
 };
 
 }  // namespace qdem

@@ -11,13 +11,23 @@ namespace qdem {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
 
-ContactRateSums::ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const State& state, double gap)
+namespace {
+
+/// Largest stiffness of one contact point [N/m]. Half as much again: the force of an edge pair changes with its share
+/// too (edge_pair.hpp).
+double largest_stiffness(const ContactLaw& law) {
+  return 1.5 * law.normal_stiffness * std::max(1.0, law.tangential_ratio);
+}
+
+}  // namespace
+
+ContactRateSums::ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const EntryLaws& laws,
+                                 const State& state, double gap)
     : skins_(skins),
       state_(state),
       model_(model),
+      laws_(laws),
       gap_(gap),
-      // Half as much again: the force of an edge pair changes with its share too (edge_pair.hpp).
-      stiffness_(1.5 * model.contact.normal_stiffness * std::max(1.0, model.contact.tangential_ratio)),
       particles_(state.x.size()),
       rates_(skins.size()) {
   for (int b = 0; b < static_cast<int>(skins.size()); ++b) {
@@ -93,9 +103,12 @@ void ContactRateSums::add(std::size_t entry) {
   const double sides = near->other ? 2 : 1;
   const BodySkin& a = skins_[near->share.body];
   const double mass = near->other ? reduced_mass(a, skins_[near->other->body]) : a.mass;
-  const double dashpot = 2 * model_.contact.damping_ratio * std::sqrt(stiffness_ * mass);
-  add_share(near->share, near->point, sides * stiffness_, sides * dashpot);
-  if (near->other) add_share(*near->other, near->point, sides * stiffness_, sides * dashpot);
+  const ContactLaw& law = laws_.of(state_.contact, entry);
+  const double stiffness = largest_stiffness(law);
+  const double dashpot =
+      2 * law.damping_ratio * std::sqrt(stiffness * mass) + std::max(law.normal_damping, law.tangential_damping);
+  add_share(near->share, near->point, sides * stiffness, sides * dashpot);
+  if (near->other) add_share(*near->other, near->point, sides * stiffness, sides * dashpot);
 }
 
 std::vector<ContactRates> ContactRateSums::result() const {

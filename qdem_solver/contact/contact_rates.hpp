@@ -6,6 +6,7 @@
 
 #include "qdem_solver/contact/body_skin.hpp"
 #include "qdem_solver/contact/contact_stage.hpp"
+#include "qdem_solver/contact/entry_laws.hpp"
 
 namespace qdem {
 
@@ -18,7 +19,8 @@ namespace qdem {
 /// point's arm; for particles, row sums bound it (Gershgorin).
 class ContactRateSums {
  public:
-  ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const State& state, double gap);
+  ContactRateSums(const Model& model, const std::vector<BodySkin>& skins, const EntryLaws& laws, const State& state,
+                  double gap);
   void add(std::size_t entry);
   std::vector<ContactRates> result() const;
 
@@ -52,7 +54,8 @@ class ContactRateSums {
   const std::vector<BodySkin>& skins_;
   const State& state_;
   const Model& model_;
-  double gap_, stiffness_;
+  const EntryLaws& laws_;
+  double gap_;
   std::vector<RigidBody> bodies_;
   std::vector<Rates> particles_;  ///< row sums, where component 0 of a particle lies in the state arrays
   std::vector<ContactRates> rates_;

@@ -6,11 +6,13 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 #include "proto/error.hpp"
 #include "qdem_solver/contact/candidates.hpp"
 #include "qdem_solver/contact/contact_rates.hpp"
 #include "qdem_solver/contact/entry_force.hpp"
+#include "qdem_solver/contact/entry_laws.hpp"
 #include "qdem_solver/contact/live_entries.hpp"
 
 namespace qdem {
@@ -39,6 +41,7 @@ struct ContactStage::Data {
   const Model& model;
   double skin;
   std::vector<BodySkin> skins;
+  EntryLaws laws;
 
   // Scratch of the list with this id.
   std::uint64_t list_id = 0;
@@ -48,7 +51,7 @@ struct ContactStage::Data {
   double last_travel = 0.0;
   std::int64_t last_step = -1;
 
-  Data(const Model& m, double s) : model(m), skin(s), skins(make_skins(m)) {}
+  Data(const Model& m, double s) : model(m), skin(s), skins(make_skins(m)), laws(m) {}
 
   double reach() const { return 2 * model.contact.rounding + skin; }
 
@@ -69,6 +72,25 @@ struct ContactStage::Data {
     const double other =
         key.is_plane() ? plane_travel(state, model.planes[~key.body_b]) : state.contact.travel[key.body_b];
     return state.contact.travel[key.body_a] + other;
+  }
+
+  /// A new list finds no side of the pad body's bottom that is deeper inside another body than it reaches. Rigid
+  /// contacts never are; on a soft pad they may be.
+  void check_lining(const State& state) const {
+    const ContactState& contact = state.contact;
+    if (model.lining.is_rigid() || list_id != contact.list_id) return;
+    const double deepest = 2 * model.contact.rounding + reach() - skin;
+    for (const std::int64_t i : live.all()) {
+      if (forces[i].overlap < deepest || contact.keys[i].is_plane() || !laws.is_lined(contact, i)) continue;
+      std::ostringstream problem, where;
+      problem << "the pad under the sleeper is pressed in by " << 1e3 * forces[i].overlap
+              << " mm, deeper than contacts are followed (" << 1e3 * deepest << " mm)";
+      where << "step " << state.step << ", t = " << state.time << " s, body '"
+            << model.bodies[contact.keys[i].body_a].name << "' and body '" << model.bodies[contact.keys[i].body_b].name
+            << "'";
+      throw proto::Error(proto::ExitCode::numerics, problem.str(), where.str(),
+                         "raise its footprint_m2 or bedding_modulus_n_per_m3, or [qdem.contact] rounding_m");
+    }
   }
 
   void fit_scratch(const ContactState& contact) {
@@ -99,14 +121,15 @@ struct ContactStage::Data {
     const ContactKey& key = contact.keys[i];
     const Motion motion{state.x.data(), state.v.data(), dt};
     const BodySkin& a = skins[key.body_a];
+    const ContactLaw& law = laws.of(contact, i);
     if (key.is_plane()) {
-      return push_on_plane(model.contact, a, key.feature_a, model.planes[~key.body_b], state.time, motion, slip);
+      return push_on_plane(law, a, key.feature_a, model.planes[~key.body_b], state.time, motion, slip);
     }
     const BodySkin& b = skins[key.body_b];
-    if (key.is_edge_pair()) return push_edges(model.contact, a, key.feature_a, b, key.feature_b, motion, slip);
+    if (key.is_edge_pair()) return push_edges(law, a, key.feature_a, b, key.feature_b, motion, slip);
     const int* first = contact.triangles.data() + contact.triangle_offsets[i];
     const int* last = contact.triangles.data() + contact.triangle_offsets[i + 1];
-    return push_node(model.contact, a, key.feature_a, b, first, last, motion, slip);
+    return push_node(law, a, key.feature_a, b, first, last, motion, slip);
   }
 };
 
@@ -126,6 +149,7 @@ bool ContactStage::update_candidates(State& state, const std::vector<double>& mo
     d.fit_scratch(contact);
     return false;
   }
+  d.check_lining(state);
   CandidateList list = find_candidates(d.model, d.skins, state.x.data(), d.reach(), state.time);
   contact.slip = carried_slip(contact, list.keys);
   contact.keys = std::move(list.keys);
@@ -145,6 +169,7 @@ void ContactStage::compute(State& state, double dt) {
   ContactState& contact = state.contact;
   d.fit_scratch(contact);
   d.follow(state);
+  d.laws.refresh();
   const std::int64_t n_chunks = d.live.n_chunks();
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::int64_t chunk = 0; chunk < n_chunks; ++chunk) {
@@ -184,7 +209,8 @@ void ContactStage::gather(int body, proto::Span<double> force) const {
 
 std::vector<ContactRates> ContactStage::rates(const State& state, double gap) const {
   const Data& d = *data_;
-  ContactRateSums sums(d.model, d.skins, state, gap);
+  EntryLaws laws(d.model);
+  ContactRateSums sums(d.model, d.skins, laws, state, gap);
   const bool asleep = d.wakes_hold(state);
   for (std::size_t i = 0; i < state.contact.keys.size(); ++i) {
     if (asleep && d.wake[i] - d.travel_of(state, state.contact.keys[i]) > gap) continue;
@@ -205,6 +231,8 @@ ContactReport ContactStage::report(const State& state) const {
     report.largest_penetration = std::max(report.largest_penetration, d.forces[i].overlap);
     report.elastic_energy += d.forces[i].energy;
     const ContactKey& key = contact.keys[i];
+    if (d.laws.is_lined(contact, i)) ++report.on_lining;
+    if (key.is_plane() && !d.model.planes[~key.body_b].bearing.is_rigid()) ++report.on_bearing;
     if (key.is_plane()) continue;
     others[key.body_a].insert(key.body_b);
     others[key.body_b].insert(key.body_a);

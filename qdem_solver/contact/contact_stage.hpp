@@ -14,6 +14,8 @@ namespace qdem {
 struct ContactReport {
   std::int64_t candidates = 0;       ///< entries of the candidate list
   std::int64_t live = 0;             ///< contacts that carry a force
+  std::int64_t on_lining = 0;        ///< of these, with the pad body's lined bottom
+  std::int64_t on_bearing = 0;       ///< of these, with planes that have a bearing
   double coordination_number = 0.0;  ///< mean number of other bodies that a stone touches [-]
   double largest_penetration = 0.0;  ///< of the rounded surfaces [m]
   double elastic_energy = 0.0;       ///< normal and tangential springs [J]
@@ -41,14 +43,15 @@ inline double near_gap(const ContactLaw& law) {
 /// Every sum is taken in an order fixed by the candidate list, so results do not depend on the number of threads.
 class ContactStage {
  public:
-  /// The model must outlive the stage; its contact law (not the skin) and its planes' points and velocities may change
-  /// between calls, nothing else.
+  /// The model must outlive the stage; its contact law (not the skin), bearings, and its planes' points and velocities
+  /// may change between calls, nothing else.
   explicit ContactStage(const Model& model);
   ~ContactStage();
 
   /// Takes `moves` [m], of each body an upper bound of how far any of its nodes moved since the last call (empty: none
   /// did); rebuilds the candidate list when a body or plane has moved by more than half the skin. Returns whether it
-  /// rebuilt. Slip of surviving keys is kept.
+  /// rebuilt. Slip of surviving keys is kept. Throws proto::Error (numerics) where the pad body's lining is pressed in
+  /// deeper than a list reaches.
   bool update_candidates(State& state, const std::vector<double>& moves = {});
 
   /// Forces of all contacts at positions state.x and velocities state.v; advances the slip by dt [s]. Runs with the

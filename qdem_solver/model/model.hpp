@@ -3,9 +3,9 @@
 // A *template* is a tetrahedral mesh in its own frame; a *body* is a scaled instance of one. Bodies of one template and
 // one material stand side by side in a *batch*: value (node i, component c) of the body in lane l lies at
 //     batch.offset + (i * 3 + c) * batch.lanes + l
-// of every state array, so that one vector instruction serves as many bodies as it has lanes, and the reference shape is
-// read once for all of them. A body without siblings forms a batch of one lane. Spare lanes of a last batch repeat the
-// batch's first body; they are integrated in free space, nothing touches them, and nobody reads them.
+// of every state array, so that one vector instruction serves as many bodies as it has lanes, and the reference shape
+// is read once for all of them. A body without siblings forms a batch of one lane. Spare lanes of a last batch repeat
+// the batch's first body; they are integrated in free space, nothing touches them, and nobody reads them.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,11 +30,11 @@ enum class Interaction {
 /// Isotropic Kelvin-Voigt solid (physics of 3D linear viscoelasticity under finite rotation).
 struct Material {
   std::string name;
-  double young = 0.0;           ///< [Pa]
-  double poisson = 0.0;         ///< [-]
-  double density = 0.0;         ///< [kg/m3]
-  double lame_viscosity = 0.0;  ///< lambda_v [Pa s]
-  double shear_viscosity = 0.0; ///< mu_v [Pa s]
+  double young = 0.0;            ///< [Pa]
+  double poisson = 0.0;          ///< [-]
+  double density = 0.0;          ///< [kg/m3]
+  double lame_viscosity = 0.0;   ///< lambda_v [Pa s]
+  double shear_viscosity = 0.0;  ///< mu_v [Pa s]
   Interaction interaction = Interaction::quadruple;
   double lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }
   double mu() const { return young / (2 * (1 + poisson)); }
@@ -45,25 +45,31 @@ struct Material {
   }
 };
 
-struct Triangle { std::array<int, 3> nodes; };               ///< outward by the right-hand rule
-struct Edge { std::array<int, 2> nodes; std::array<int, 2> triangles; bool sharp; };  ///< sharp: can touch another edge
+struct Triangle {
+  std::array<int, 3> nodes;
+};  ///< outward by the right-hand rule
+struct Edge {
+  std::array<int, 2> nodes;
+  std::array<int, 2> triangles;
+  bool sharp;
+};  ///< sharp: can touch another edge
 
 struct BondNetwork;
 
 /// Reference shape shared by bodies: topology, gradients, lumped volumes, skin. Built by make_template().
 struct Template {
   std::string name;
-  std::vector<Eigen::Vector3d> nodes;                 ///< [m] at scale 1
-  std::vector<std::array<int, 4>> tets;               ///< positively oriented
-  std::vector<std::array<double, 9>> gradients;       ///< per tet: g_2, g_3, g_4 (rows of Dm^-1) [1/m]
-  std::vector<double> volumes;                        ///< per tet [m3]
-  std::vector<double> node_volumes;                   ///< row-sum lumping: quarter of each adjacent tet [m3]
+  std::vector<Eigen::Vector3d> nodes;            ///< [m] at scale 1
+  std::vector<std::array<int, 4>> tets;          ///< positively oriented
+  std::vector<std::array<double, 9>> gradients;  ///< per tet: g_2, g_3, g_4 (rows of Dm^-1) [1/m]
+  std::vector<double> volumes;                   ///< per tet [m3]
+  std::vector<double> node_volumes;              ///< row-sum lumping: quarter of each adjacent tet [m3]
   std::vector<Triangle> triangles;
   std::vector<Edge> edges;
-  std::vector<int> surface_nodes;                     ///< ascending
-  std::vector<int> adjacency_offsets, adjacency_slots;///< CSR: node -> 4 * tet + corner, ascending
-  double whole_volume = 0.0;                          ///< [m3]
-  std::shared_ptr<const BondNetwork> bonds;           ///< made by make_batches() where a bonded body needs them
+  std::vector<int> surface_nodes;                       ///< ascending
+  std::vector<int> adjacency_offsets, adjacency_slots;  ///< CSR: node -> 4 * tet + corner, ascending
+  double whole_volume = 0.0;                            ///< [m3]
+  std::shared_ptr<const BondNetwork> bonds;             ///< made by make_batches() where a bonded body needs them
   double volume() const { return whole_volume; }
   int n_nodes() const { return static_cast<int>(nodes.size()); }
   int n_tets() const { return static_cast<int>(tets.size()); }
@@ -73,7 +79,7 @@ inline constexpr double default_sharp_angle_deg = 10.0;
 
 /// How messages about tetrahedra of a file name them and their volumes.
 struct TetLabels {
-  std::vector<std::size_t> tags;          ///< empty: their numbers from 0
+  std::vector<std::size_t> tags;  ///< empty: their numbers from 0
   const char* volume_unit = "m3";
 };
 
@@ -90,70 +96,88 @@ struct Body {
   int template_id = 0;
   int material_id = 0;
   double scale = 1.0;
-  int batch = 0, lane = 0;          ///< set by make_model()
+  int batch = 0, lane = 0;  ///< set by make_model()
 };
 
 /// Bodies side by side; see the head of this file.
 struct Batch {
   int template_id = 0, material_id = 0;
-  int lanes = 1;                       ///< 1 or lane_width
-  std::int64_t offset = 0;             ///< of its first value in the state arrays
-  std::array<int, lane_width> bodies{};///< body of each lane; -1: spare
+  int lanes = 1;                         ///< 1 or lane_width
+  std::int64_t offset = 0;               ///< of its first value in the state arrays
+  std::array<int, lane_width> bodies{};  ///< body of each lane; -1: spare
   std::array<double, lane_width> scale{};
 };
 
-/// Rigid half-space boundary: bodies stay on the side the normal points to. At State::time t it passes through
+/// What gives way behind a surface, as one contact point feels it: a pad, a mat, the ground. Every contact point
+/// presses a footprint of its own; neighbours do not feel each other (Winkler's foundation).
+struct Bearing {
+  double normal_stiffness = 0.0, tangential_stiffness = 0.0;  ///< of a footprint [N/m]; normal 0: rigid
+  double normal_damping = 0.0, tangential_damping = 0.0;      ///< of a footprint [N s/m]
+  double footprint = 0.0;                                     ///< its area, for reports [m2]
+  bool is_rigid() const { return !(normal_stiffness > 0); }
+};
+
+/// Half-space boundary: bodies stay on the side the normal points to. At State::time t it passes through
 /// point + t * velocity.
 struct Plane {
   std::string name;
   Eigen::Vector3d point, normal, velocity = Eigen::Vector3d::Zero();
   double friction = 0.0;
   bool touches_stones = true, touches_sleeper = true;
+  Bearing bearing = {};  ///< behind it
 };
 
 /// Contact of surfaces rounded with a small radius: Voigt normal and tangential, Coulomb slider with history.
 struct ContactLaw {
-  double normal_stiffness = 0.0;     ///< k_n [N/m]
-  double tangential_ratio = 0.8;     ///< k_t / k_n [-]
-  double damping_ratio = 0.0;        ///< zeta of the contact dashpots, against the reduced mass of the two bodies [-]
-  double friction = 0.0;             ///< [-]
-  double rounding = 0.0;             ///< radius by which every surface is rounded [m]
-  double skin = 0.0;                 ///< how much farther than touching the candidate list reaches [m]; 0: the rounding
+  double normal_stiffness = 0.0;    ///< k_n [N/m]
+  double tangential_ratio = 0.8;    ///< k_t / k_n [-]
+  double damping_ratio = 0.0;       ///< zeta of the contact dashpots, against the reduced mass of the two bodies [-]
+  double friction = 0.0;            ///< [-]
+  double rounding = 0.0;            ///< radius by which every surface is rounded [m]
+  double skin = 0.0;                ///< how much farther than touching the candidate list reaches [m]; 0: the rounding
+  double normal_damping = 0.0;      ///< of what lies behind the surfaces, beside the contact's own dashpot [N s/m]
+  double tangential_damping = 0.0;  ///< the same along them [N s/m]
 };
 
 /// One pad value on the QDEM side: weights of sleeper particles and the direction it measures. See proto::RailSeat.
 struct PadCell {
-  std::vector<int> nodes;            ///< local node numbers of the sleeper body
-  std::vector<double> weights;       ///< sum to one
-  Eigen::Matrix3d axes;              ///< seat axes
+  std::vector<int> nodes;       ///< local node numbers of the sleeper body
+  std::vector<double> weights;  ///< sum to one
+  Eigen::Matrix3d axes;         ///< seat axes
   std::array<proto::PadLaw, 3> laws;
 };
 
 /// Particle components held at zero velocity (bit c of mask: component c).
-struct Fixity { int body, node; unsigned mask; };
+struct Fixity {
+  int body, node;
+  unsigned mask;
+};
 
 /// Inertia of a body while it is brought to rest, as multiples of its true masses: `rigid` for its motion as a rigid
 /// body, `deformation` for all other motion. Weights, stiffness and hence the state of rest are those of the true body;
 /// only the way there differs (selective mass scaling: Olovsson, Simonsson and Unosson 2005).
-struct Inertia { double rigid = 1.0, deformation = 1.0; };
+struct Inertia {
+  double rigid = 1.0, deformation = 1.0;
+};
 
 struct Model {
   std::vector<Material> materials;
   std::vector<Template> templates;
   std::vector<Body> bodies;
   std::vector<Batch> batches;
-  std::int64_t n_values = 0;            ///< length of each state array
+  std::int64_t n_values = 0;  ///< length of each state array
   std::vector<Plane> planes;
   ContactLaw contact;
   Eigen::Vector3d gravity{0, 0, -9.81};
-  std::vector<PadCell> pads;            ///< cells in order of seat, cell
-  int pad_body = -1;                    ///< the sleeper
+  std::vector<PadCell> pads;  ///< cells in order of seat, cell
+  int pad_body = -1;          ///< the sleeper
+  Bearing lining;             ///< on the bottom of the pad body: the lowest plane of its template
   std::vector<Fixity> fixities;
-  double local_damping = 0.0;           ///< Cundall's non-viscous damping, only while relaxing [-]
-  double drag_per_s = 0.0;              ///< mass-proportional drag, only while pouring [1/s]
+  double local_damping = 0.0;              ///< Cundall's non-viscous damping, only while relaxing [-]
+  double drag_per_s = 0.0;                 ///< mass-proportional drag, only while pouring [1/s]
   Eigen::Vector3d pad_body_load{0, 0, 0};  ///< on the pad body, spread as its mass is [N]
-  std::vector<Inertia> inertia;         ///< of each body, only while relaxing: local_damping then acts on rigid motion,
-                                        ///< a drag on deformation. Empty: true masses, damping particle by particle
+  std::vector<Inertia> inertia;  ///< of each body, only while relaxing: local_damping then acts on rigid motion,
+                                 ///< a drag on deformation. Empty: true masses, damping particle by particle
 
   /// Index of component 0 of a body's node in the state arrays; component c lies `stride(body)` values further.
   std::int64_t index(int body, int node) const {
@@ -164,13 +188,13 @@ struct Model {
   int stride(int body) const { return batches[bodies[body].batch].lanes; }
   const Template& shape(int body) const { return templates[bodies[body].template_id]; }
   const Material& material(int body) const { return materials[bodies[body].material_id]; }
-  double node_mass(int body, int node) const;   ///< [kg]
-  double body_mass(int body) const;             ///< [kg]
-  std::int64_t n_elements() const;              ///< of all bodies
+  double node_mass(int body, int node) const;  ///< [kg]
+  double body_mass(int body) const;            ///< [kg]
+  std::int64_t n_elements() const;             ///< of all bodies
 };
 
-/// Sorts bodies into batches and sets their offsets. The order of `bodies` is kept; only batch and lane are written, and the
-/// bonds of templates that bodies of bonded material use.
+/// Sorts bodies into batches and sets their offsets. The order of `bodies` is kept; only batch and lane are written,
+/// and the bonds of templates that bodies of bonded material use.
 void make_batches(Model& model);
 
 }  // namespace qdem

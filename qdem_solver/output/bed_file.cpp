@@ -201,13 +201,16 @@ Bed take_bed(const Hdf5Store& file, const BedPhysics& physics) {
     throw proto::Error(proto::ExitCode::bad_data, "a bed file of another format");
   }
   Bed bed;
-  bed.model.materials = {physics.stone, physics.sleeper};
+  bed.model.materials = physics.materials();
   bed.model.contact = physics.contact;
-  bed.model.gravity = physics.gravity;
+  bed.model.gravity = physics.gravity, bed.model.lining = physics.lining;
   bed.model.pad_body = 0;
   take_templates(file, bed.model);
   take_bodies(file, bed.model);
   take_planes(file, bed.model);
+  for (Plane& plane : bed.model.planes) {
+    if (plane.name == "ground") plane.bearing = physics.ground;
+  }
   make_batches(bed.model);
   take_state(file, bed.model, bed.state);
   bed.report = take_report(file);

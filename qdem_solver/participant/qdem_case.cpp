@@ -6,6 +6,7 @@
 
 #include "proto/error.hpp"
 #include "qdem_solver/contact/calibration.hpp"
+#include "qdem_solver/participant/layers_case.hpp"
 
 namespace qdem {
 namespace {
@@ -73,19 +74,43 @@ Interaction read_interaction(const Section& qdem) {
 }
 
 void read_materials(const Section& qdem, BedPhysics& physics) {
-  bool has_stone = false, has_sleeper = false;
+  std::vector<std::string> names;
   for (const Section& section : qdem.sections("material")) {
-    const std::string name = section.choice("name", {"stone", "sleeper"});
-    bool& seen = name == "stone" ? has_stone : has_sleeper;
-    if (seen) section.fail("name", "the material '" + name + "' is given twice");
-    seen = true;
-    (name == "stone" ? physics.stone : physics.sleeper) = read_material(section, name);
+    const std::string name = section.text("name");
+    if (std::count(names.begin(), names.end(), name) > 0) {
+      section.fail("name", "the material '" + name + "' is given twice");
+    }
+    names.push_back(name);
+    Material material = read_material(section, name);
+    material.interaction = read_interaction(qdem);
+    if (name == "stone") {
+      physics.stone = material;
+    } else if (name == "sleeper") {
+      physics.sleeper = material;
+    } else {
+      physics.others.push_back(material);
+    }
   }
-  if (!has_stone || !has_sleeper) {
-    qdem.fail("material", std::string("the material '") + (has_stone ? "sleeper" : "stone") + "' is missing",
-              "add a [[qdem.material]] with that name");
+  for (const std::string needed : {"stone", "sleeper"}) {
+    if (std::count(names.begin(), names.end(), needed) > 0) continue;
+    const std::string nearest = proto::nearest_name(needed, names);
+    qdem.fail("material",
+              "the material '" + needed + "' is missing" + (nearest.empty() ? "" : ", found '" + nearest + "'"),
+              nearest.empty() ? "add a [[qdem.material]] with that name" : "did you mean '" + needed + "'?");
   }
-  physics.stone.interaction = physics.sleeper.interaction = read_interaction(qdem);
+}
+
+/// A material that nothing is made of is a slip of the pen.
+void check_use(const proto::CaseFile& file, const BedPhysics& physics) {
+  auto used = file.section("bed").texts_or("stone_materials", {"stone"});
+  used.push_back(subgrade_material(file.section("qdem")));
+  for (const Material& material : physics.others) {
+    if (std::count(used.begin(), used.end(), material.name) > 0) continue;
+    const std::string nearest = proto::nearest_name(material.name, std::vector<std::string>{"stone", "sleeper"});
+    file.section("qdem").fail("material", "nothing is made of the material '" + material.name + "'",
+                              nearest.empty() ? "name it in [bed] stone_materials or [qdem.subgrade], or remove it"
+                                              : "did you mean '" + nearest + "'?");
+  }
 }
 
 double read_damping_ratio(const Section& section) {
@@ -139,6 +164,8 @@ QdemCase read_qdem_case(const proto::CaseFile& file) {
   result.initialise_damping =
       section.number_or("initialise_damping", result.initialise_damping, Range::between(0, 0.95));
   read_materials(section, result.physics);
+  read_layers(section, result.physics);
+  check_use(file, result.physics);
   read_contact(section.section("contact"), result.physics);
   result.sensors = read_sensors(section);
   result.contact_output = section.boolean_or("contact_output", false);

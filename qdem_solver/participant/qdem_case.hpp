@@ -32,11 +32,13 @@ struct QdemCase {
 ///   [qdem] particle_interaction ("quadruple", "bond"), step_safety, largest_step_s, threads, gravity_m_per_s2,
 ///     initialise_damping, sensor_interval_s, contact_output
 ///   [[qdem.sensor]] (sensors/sensor_settings.hpp)
-///   [[qdem.material]] name ("stone", "sleeper"; both once), young_pa, poisson, density_kg_per_m3, and one of
+///   [[qdem.material]] name ("stone", "sleeper"; others where [bed] stone_materials or [qdem.subgrade] names them; each
+///   once), young_pa, poisson, density_kg_per_m3, and one of
 ///     retardation_time_s; loss_factor with loss_factor_frequency_hz; lame_viscosity_pa_s with shear_viscosity_pa_s
 ///   [qdem.contact] normal_stiffness_n_per_m, or hertz_load_n with hertz_radius_m (tangent of Hertz's law there), or
 ///     contact_time_s with contact_mass_kg (of two stones of that mass); damping_ratio or restitution;
 ///     tangential_ratio, friction, ground_friction, rounding_m
+///   [qdem.under_sleeper_pad], [qdem.under_ballast_mat], [qdem.subgrade] (layers_case.hpp)
 ///   [qdem.run] duration_s, output_interval_s
 ///   [qdem.run.load] (load_history.hpp)
 /// and refuses every other key. Throws proto::Error (config).

@@ -104,7 +104,28 @@ std::vector<proto::Fact> TrackBed::facts() const {
   add("qdem.largest_step_s", largest_step_);
   add("qdem.damping_step_factor", bound_->viscosity_factor(bed_.state, engine_->contacts(), touching_gap()));
   add("qdem.threads", settings_.threads > 0 ? settings_.threads : omp_get_max_threads());
+  add_layers(facts);
   return facts;
+}
+
+void TrackBed::add_layers(std::vector<proto::Fact>& facts) const {
+  const Model& model = bed_.model;
+  const BedPhysics& physics = settings_.physics;
+  if (physics.lining.is_rigid() && physics.ground.is_rigid()) return;
+  const auto add = [&](const char* key, double value) { facts.push_back({key, value, {}}); };
+  const ContactReport contacts = engine_->contacts().report(bed_.state);
+  if (!physics.lining.is_rigid()) {
+    add("qdem.pad_contacts", static_cast<double>(contacts.on_lining));
+    add("qdem.pad_pressed_area_m2", static_cast<double>(contacts.on_lining) * physics.lining.footprint);
+  }
+  if (!physics.ground.is_rigid()) {
+    add("qdem.ground_contacts", static_cast<double>(contacts.on_bearing));
+    add("qdem.ground_pressed_area_m2", static_cast<double>(contacts.on_bearing) * physics.ground.footprint);
+  }
+  Model rigid = model;
+  rigid.lining = {};
+  for (Plane& plane : rigid.planes) plane.bearing = {};
+  add("qdem.layers_step_factor", step_bound_ / bound_->at(bed_.state, ContactStage(rigid), touching_gap()));
 }
 
 proto::Attributes TrackBed::attributes(const proto::CaseFile& file) const {

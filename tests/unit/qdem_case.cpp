@@ -141,6 +141,47 @@ TEST(QdemCase, ALossFactorIsARetardationTime) {
   EXPECT_NE(refusal("loss_factor_frequency_hz = 10").find("loss_factor"), std::string::npos);
 }
 
+namespace {
+
+const std::string soil =
+    "[[qdem.material]]\nname = \"soil\"\nyoung_pa = 5e7\npoisson = 0.3\ndensity_kg_per_m3 = 2000\n";
+const std::string pad =
+    "[qdem.under_sleeper_pad]\nbedding_modulus_n_per_m3 = 2e8\nfootprint_m2 = 1e-3\nloss_factor = 0.2\n"
+    "loss_factor_frequency_hz = 30\n";
+
+}  // namespace
+
+TEST(QdemCase, ReadsLayersAndSubgrade) {
+  EXPECT_TRUE(read("").physics.lining.is_rigid());
+  EXPECT_TRUE(read("").physics.ground.is_rigid());
+  const auto lining = read(pad).physics.lining;
+  EXPECT_TRUE(tests::near_rel(lining.normal_stiffness, 2e5, 1e-12));
+  EXPECT_TRUE(tests::near_rel(lining.tangential_stiffness, 6e4, 1e-12));
+  EXPECT_TRUE(tests::near_rel(lining.normal_damping, 0.2 * 2e5 / (2 * M_PI * 30), 1e-12));
+  const std::string half_space =
+      "[qdem.subgrade]\nkind = \"half_space\"\nmaterial = \"soil\"\nfootprint_radius_m = 0.05\n";
+  const auto ground = read(soil + half_space).physics.ground;
+  EXPECT_TRUE(tests::near_rel(ground.normal_stiffness, 4 * 5e7 / 2.6 * 0.05 / 0.7, 1e-12));
+  const auto both =
+      read(soil + half_space + "[qdem.under_ballast_mat]\nbedding_modulus_n_per_m3 = 5e7\nfootprint_m2 = 8e-3\n")
+          .physics;
+  EXPECT_TRUE(tests::near_rel(1 / both.ground.normal_stiffness, 1 / ground.normal_stiffness + 1 / 4e5, 1e-12));
+}
+
+TEST(QdemCase, RefusesLayersThatCannotBe) {
+  expect_refused("[qdem.under_sleeper_pad]\nbedding_modulus_n_per_m3 = 2e8\n", "qdem.under_sleeper_pad.footprint_m2");
+  expect_refused("[qdem.under_sleeper_pad]\nbedding_modulus_n_per_m3 = -2e8\nfootprint_m2 = 1e-3\n", "greater than 0");
+  expect_refused(pad + "shear_ratio = 0.0\n", "qdem.under_sleeper_pad.shear_ratio");
+  expect_refused(pad + "damping = 1.0\n", "qdem.under_sleeper_pad.damping");
+  expect_refused("[qdem.under_sleeper_mat]\nfootprint_m2 = 1e-3\n", "did you mean 'under_sleeper_pad'");
+  expect_refused("[qdem.under_ballast_mat]\nbedding_modulus_n_per_m3 = 2e8\nfootprint_m2 = 1e-3\nloss_factor = 0.1\n",
+                 "loss_factor_frequency_hz");
+  expect_refused("[qdem.subgrade]\nkind = \"halfspace\"\n", "did you mean 'half_space'");
+  expect_refused(soil + "[qdem.subgrade]\nkind = \"half_space\"\nmaterial = \"sol\"\nfootprint_radius_m = 0.05\n",
+                 "did you mean 'soil'");
+  expect_refused("[qdem.subgrade]\nfootprint_radius_m = 0.05\n", "footprint_radius_m");
+}
+
 TEST(QdemCase, RefusesWhatItCannotUse) {
   expect_refused("particle_interaction = \"bonds\"\n", "did you mean 'bond'");
   expect_refused("particle_interactoin = \"bond\"\n", "particle_interaction");
@@ -148,7 +189,9 @@ TEST(QdemCase, RefusesWhatItCannotUse) {
   expect_refused("step_safety = 1.2\n", "qdem.step_safety");
   expect_refused("[[qdem.material]]\nname = \"stone\"\nyoung_pa = 1e9\npoisson = 0.2\ndensity_kg_per_m3 = 1\n",
                  "twice");
-  expect_refused("[[qdem.material]]\nname = \"stoen\"\n", "stone");
+  const std::string own = "young_pa = 1e9\npoisson = 0.2\ndensity_kg_per_m3 = 1\n";
+  expect_refused("[[qdem.material]]\nname = \"stoen\"\n" + own, "did you mean 'stone'");
+  expect_refused("[[qdem.material]]\nname = \"granite\"\n" + own, "nothing is made of the material 'granite'");
   expect_refused("[qdem.run.load]\nkind = \"table\"\ntime_s = [0, 1]\nforce_n = [5]\n", "1 forces for 2 times");
   expect_refused("[qdem.run.load]\nkind = \"table\"\ntime_s = [1, 1]\nforce_n = [5, 6]\n", "do not ascend");
   expect_refused("[qdem.run.load]\nkind = \"half_sin\"\n", "half_sine");
