@@ -2,8 +2,8 @@
 """A rail that is one mass on a spring, as the participant `fem` of a coupled run.
 
 Written from proto/README.md alone; the sections named are its. It shares nothing with the rest of this tree but the
-schema: `coupling.fbs` and the modules that `flatc --python` makes of it lie in the script's folder. The rail moves along
-the normal axis of one rail seat with one cell; its figures are `[oscillator.implicit]` of the case (split_oscillator).
+schema: `coupling.fbs` and the modules that `flatc --python` makes of it lie in the script's folder. The rail moves
+along the normal axis of one rail seat with one cell; its figures are `[oscillator.implicit]` of the case.
 """
 import argparse
 import math
@@ -20,14 +20,14 @@ import zmq
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER))
-from proto.fbs import (Advance, Body, Bye, Capabilities, Commit, Configure, Configured, Fact, Fault, Field,  # noqa: E402
-                       FieldSpec, Heartbeat, Hello, Interface, LoadMode, Message, Phase, Reject, Result, Rollback,
-                       SeatRegistration, Welcome)
+from proto.fbs import (Advance, Body, Bye, Capabilities, Commit, Configure, Configured, Fact, Fault,  # noqa: E402
+                       Field, FieldSpec, Heartbeat, Hello, Interface, LoadMode, Message, Phase, Reject, Result,
+                       Rollback, SeatRegistration, Welcome)
 
 MAGIC = b"QFC1"
 PROTOCOL_VERSION = (1, 2)
 NORMAL = 2  # seat axis
-USAGE, UNAVAILABLE, INTERNAL, NUMERICS, PROTOCOL, CONFIG = 64, 69, 70, 75, 76, 78
+USAGE, UNAVAILABLE, NUMERICS, PROTOCOL, CONFIG = 64, 69, 75, 76, 78
 KIND = Body.Body
 
 
@@ -39,7 +39,7 @@ class Failure(Exception):
         self.code = code
 
 
-# Section 3: frames -----------------------------------------------------------------------------------------------------
+# Section 3: frames -----------------------------------------------------------------------------------------------
 
 def frame(payload):
     return MAGIC + struct.pack("<IQ", len(payload), xxhash.xxh3_64_intdigest(payload)) + payload
@@ -55,7 +55,7 @@ def unframe(data):
     return Message.Message.GetRootAs(payload, 0)
 
 
-# Tables of the schema, from and to plain values ------------------------------------------------------------------------
+# Tables of the schema, from and to plain values ------------------------------------------------------------------
 
 def table(b, module, **values):
     """A table of `module` with the given fields; texts and lists are written before it is begun."""
@@ -108,7 +108,7 @@ def read_fields(advance):
     return fields
 
 
-# Section 8: what the rail does -----------------------------------------------------------------------------------------
+# Section 8: what the rail does -----------------------------------------------------------------------------------
 
 class Rail:
     """Mass, ground spring and pad, all along the normal axis."""
@@ -145,8 +145,8 @@ class Rail:
             self.solve(h, 0.0, 0.0, -used)
             return {"force_used": along_normal(used)}
         carry = fields["force_carry"][NORMAL]
-        robin = self.solve_robin(h, fields["sleeper_mean_displacement"][NORMAL], fields["sleeper_mean_velocity"][NORMAL],
-                                 carry)
+        x, y = (fields[name][NORMAL] for name in ("sleeper_mean_displacement", "sleeper_mean_velocity"))
+        robin = self.solve_robin(h, x, y, carry)
         return {"force_robin": along_normal(robin), "force_used": along_normal(robin - carry)}
 
     def motion(self):
@@ -157,7 +157,7 @@ def along_normal(value):
     return [0.0, 0.0, value]
 
 
-# Section 9: what the seat's only cell does ------------------------------------------------------------------------------
+# Section 9: what the seat's only cell does ------------------------------------------------------------------------
 
 def registration(seat):
     """The cell lies at the origin and follows the mass: rotations about it leave it there, forces have no moment."""
@@ -174,7 +174,7 @@ INCOMING = {"sleeper_mean_displacement": "m", "sleeper_mean_velocity": "m/s", "f
 OUTGOING = {"rail_displacement": "m", "rail_velocity": "m/s", "force_robin": "N", "force_used": "N"}
 
 
-# Sections 4 to 6: the session -------------------------------------------------------------------------------------------
+# Sections 4 to 6: the session -------------------------------------------------------------------------------------
 
 class Session:
     """A window takes microseconds here, so one thread serves both the socket and the solver."""
@@ -304,12 +304,14 @@ class Session:
         self.say(KIND.Result, result, message.Sequence())
 
     def on_commit(self, message):
-        self.require(self.state == "advanced" and read("Commit", Commit, message).Window() == self.window, "Commit")
+        window = read("Commit", Commit, message).Window()
+        self.require(self.state == "advanced" and window == self.window, "Commit")
         self.kept, self.state = (self.rail.u, self.rail.v), "marching"
         self.window, self.iteration = self.window + 1, 0
 
     def on_rollback(self, message):
-        self.require(self.state == "advanced" and read("Rollback", Rollback, message).Window() == self.window, "Rollback")
+        window = read("Rollback", Rollback, message).Window()
+        self.require(self.state == "advanced" and window == self.window, "Rollback")
         self.rail.u, self.rail.v = self.kept
         self.state, self.iteration = "marching", self.iteration + 1
 
@@ -323,12 +325,14 @@ class Session:
         self.require(self.state not in ("greeting", "advanced"), "Finish")
         facts = {"oscillator.implicit.x": self.rail.u, "oscillator.implicit.v": self.rail.v,
                  "oscillator.implicit.time_s": self.window * self.window_s}
-        self.say(KIND.Bye, lambda b: table(b, Bye, Facts=Tables(table(b, Fact, Key=k, Number=v) for k, v in facts.items())),
-                 message.Sequence())
+
+        def bye(b):
+            return table(b, Bye, Facts=Tables(table(b, Fact, Key=k, Number=v) for k, v in facts.items()))
+        self.say(KIND.Bye, bye, message.Sequence())
         self.state = "finished"
 
 
-# Sections 1 and 10: the process -----------------------------------------------------------------------------------------
+# Sections 1 and 10: the process -----------------------------------------------------------------------------------
 
 def parsed(argv):
     parser = argparse.ArgumentParser(description="A spring-mass rail for coupled runs.")
