@@ -183,7 +183,7 @@ TEST_P(FemParticipantTest, robin_passage_equals_the_track_in_one_piece) {
   EXPECT_TRUE(near_abs(largest_error / largest_force, 0.0, 2e-3));
   const auto facts = participant.finish();
   EXPECT_TRUE(std::filesystem::exists(folder_ / "fem.h5"));
-  EXPECT_EQ(facts.front().key, "fem.largest_contact_force_n");
+  EXPECT_EQ(facts.at(1).key, "fem.largest_contact_force_n");
 }
 
 TEST_P(FemParticipantTest, a_window_after_rollback_repeats_itself) {
