@@ -19,6 +19,19 @@ set_target_properties(relaxing_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY $
 house_test(coupler_initialise_test integration SOURCES integration/coupler_initialise.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 60)
 add_dependencies(coupler_initialise_test coupler relaxing_participant)
+# A participant in Python that knows proto/README.md and the schema, nothing else of this tree.
+set(spring_rail ${PROJECT_BINARY_DIR}/test_bin/spring_rail)
+add_custom_command(
+  OUTPUT ${spring_rail}/spring_rail.py ${spring_rail}/coupling.fbs ${spring_rail}/proto/fbs/Message.py
+  COMMAND ${FLATC} --python -o ${spring_rail} ${PROJECT_SOURCE_DIR}/proto/schema/coupling.fbs
+  COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/proto/schema/coupling.fbs
+          ${PROJECT_SOURCE_DIR}/tests/support/spring_rail.py ${spring_rail}
+  DEPENDS ${PROJECT_SOURCE_DIR}/proto/schema/coupling.fbs support/spring_rail.py
+  VERBATIM)
+add_custom_target(spring_rail_participant DEPENDS ${spring_rail}/spring_rail.py)
+house_test(python_participant_test integration SOURCES integration/python_participant.cpp
+           LIBRARIES proto::case nlohmann_json::nlohmann_json TIMEOUT 120)
+add_dependencies(python_participant_test coupler oscillator_participant spring_rail_participant)
 house_test(coupler_supervisor_test integration SOURCES integration/coupler_supervisor.cpp
            LIBRARIES coupler::supervise nlohmann_json::nlohmann_json TIMEOUT 60)
 add_dependencies(coupler_supervisor_test coupler oscillator_participant)

@@ -1,10 +1,16 @@
 # Tests of fem.
-house_test(fem_contact unit SOURCES unit/fem_contact.cpp LIBRARIES fem::track)
+house_test(fem_contact unit SOURCES unit/fem_contact.cpp LIBRARIES fem::solid)
 house_test(fem_cholesky unit SOURCES unit/fem_cholesky.cpp LIBRARIES fem::linear)
-house_test(fem_interface_operator unit SOURCES unit/fem_interface_operator.cpp LIBRARIES fem::track)
-house_test(fem_elasticity verification SOURCES verification/fem_elasticity.cpp LIBRARIES fem::track)
-house_test(fem_static_beam verification SOURCES verification/fem_static_beam.cpp LIBRARIES fem::track)
-house_test(fem_wheel verification SOURCES verification/fem_wheel.cpp LIBRARIES fem::track)
-house_test(fem_window verification SOURCES verification/fem_window.cpp LIBRARIES fem::track)
-house_test(fem_newmark convergence SOURCES convergence/fem_newmark.cpp LIBRARIES fem::track)
-house_test(fem_participant_window integration SOURCES integration/fem_participant.cpp LIBRARIES fem::participant)
+house_test(fem_interface_operator unit SOURCES unit/fem_interface_operator.cpp
+           LIBRARIES fem::solid fem::beam_rail)
+house_test(fem_elasticity verification SOURCES verification/fem_elasticity.cpp LIBRARIES fem::solid)
+house_test(fem_static_beam verification SOURCES verification/fem_static_beam.cpp LIBRARIES fem::solid)
+house_test(fem_wheel verification SOURCES verification/fem_wheel.cpp LIBRARIES fem::solid)
+house_test(fem_window verification SOURCES verification/fem_window.cpp LIBRARIES fem::solid fem::beam_rail)
+house_test(fem_newmark convergence SOURCES convergence/fem_newmark.cpp LIBRARIES fem::solid fem::beam_rail)
+house_test(fem_participant_window integration SOURCES integration/fem_participant.cpp
+           LIBRARIES fem::participant_openmpi fem::solid fem::beam_rail)
+house_test(fem_beam_test verification SOURCES verification/fem_beam.cpp LIBRARIES fem::beam_rail)
+house_test(fem_solid_and_beam verification SOURCES verification/fem_solid_and_beam.cpp
+           LIBRARIES proto::result_serial nlohmann_json::nlohmann_json)
+add_dependencies(fem_solid_and_beam coupler oscillator_participant fem_solver fem_beam)

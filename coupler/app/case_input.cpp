@@ -13,6 +13,12 @@ CaseInput read_case(const std::string& path) {
   return {std::move(file), std::move(coupling), std::move(seats)};
 }
 
+void use_fem(proto::Coupling& coupling, const std::string& fem) {
+  if (fem.empty()) return;
+  const std::string program = fem == "solid" ? "fem_solver" : fem == "beam" ? "fem_beam" : fem;
+  coupling.fem.command = {find_program(program, "--fem"), "participant"};
+}
+
 std::vector<proto::ParticipantSpec> find_participants(const CaseInput& input) {
   std::vector<proto::ParticipantSpec> result{input.coupling.qdem, input.coupling.fem};
   for (auto& spec : result)

@@ -27,15 +27,16 @@ ChildExit run_check(Children& children, const proto::ParticipantSpec& spec, cons
 
 }  // namespace
 
-int check_case(const std::string& case_path) {
-  const auto input = read_case(case_path);
+int check_case(const RunOptions& options) {
+  auto input = read_case(options.case_path);
+  use_fem(input.coupling, options.fem);
   Children children(own_path());
   for (const auto& spec : find_participants(input)) {
     const auto exit = run_check(children, spec, input.file.path());
     if (exit.signal) throw proto::Error(proto::ExitCode::unavailable, spec.command.front() + " check " + exit.text());
     if (exit.code) return exit.code;
   }
-  fmt::print("{}: valid\n", case_path);
+  fmt::print("{}: valid\n", options.case_path);
   return 0;
 }
 

@@ -29,9 +29,14 @@ int command_line(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   coupler::RunOptions options;
   int n_levels = 4;
-  const auto add_runner = [&](const char* name, const char* what) {
+  const auto add_command = [&](const char* name, const char* what) {
     auto* command = app.add_subcommand(name, what);
     command->add_option("CASE", options.case_path, "case file (TOML)")->required();
+    command->add_option("--fem", options.fem, "rail and wheel instead of the case's: solid, beam, or a program");
+    return command;
+  };
+  const auto add_runner = [&](const char* name, const char* what) {
+    auto* command = add_command(name, what);
     command->add_option("--out", options.out, "output folder, new or empty (default: runs/<case>-<time>)");
     command->add_option("--scheme", options.scheme, "coupling scheme instead of the case's")
         ->check(CLI::IsMember(proto::scheme_names()));
@@ -57,8 +62,7 @@ int command_line(int argc, char** argv) {
   converge->add_option("--levels", n_levels, "number of runs")->check(CLI::Range(3, 12))->capture_default_str();
   coupler::AnalyzeOptions analysis;
   const auto* analyze = coupler::add_analyze_command(app, analysis);
-  auto* check = app.add_subcommand("check", "validate a case without running it");
-  check->add_option("CASE", options.case_path, "case file (TOML)")->required();
+  auto* check = add_command("check", "validate a case without running it");
   try {
     app.parse(argc, argv);
     if (run->parsed() && options.case_path.empty() && options.resume.empty())
@@ -69,7 +73,7 @@ int command_line(int argc, char** argv) {
   }
   if (analyze->parsed()) return coupler::analyze_run(analysis);
   if (converge->parsed()) return coupler::converge_case(options, n_levels);
-  if (check->parsed()) return coupler::check_case(options.case_path);
+  if (check->parsed()) return coupler::check_case(options);
   return options.resume.empty() ? coupler::run_case(options) : coupler::resume_run(options);
 }
 

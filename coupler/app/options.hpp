@@ -12,6 +12,7 @@ struct RunOptions {
   std::string case_path;
   std::string out;                ///< empty: runs/<case>-<time>
   std::string scheme;             ///< a name, or empty: as the case says
+  std::string fem;                ///< see use_fem(), or empty: as the case says
   double window_s = 0.0;          ///< instead of the case's; 0: as the case says [s]
   int n_threads = 0;              ///< of each participant; 0: as the environment says
   std::string resume;             ///< folder of an earlier run to go on in; empty: a new run
@@ -45,6 +46,7 @@ int analyze_run(const AnalyzeOptions& options);
 
 /// Validates the case: the coupler's own and the common sections, then each participant's `check`.
 /// Returns 0, or the exit code of the participant that refused (which has said why on stderr). Throws proto::Error.
-int check_case(const std::string& case_path);
+/// Of `options` the case and `fem` count.
+int check_case(const RunOptions& options);
 
 }  // namespace coupler

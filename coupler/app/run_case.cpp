@@ -182,6 +182,7 @@ int run_in(const CaseInput& input, const RunFolder& folder, const Orders& orders
 
 /// What the command line says in place of the case.
 void apply(const RunOptions& options, proto::Coupling& coupling) {
+  use_fem(coupling, options.fem);
   if (!options.scheme.empty()) coupling.scheme = proto::scheme_of(options.scheme);
   if (options.window_s > 0.0) {
     const double duration = static_cast<double>(coupling.n_windows) * coupling.window_s;

@@ -7,28 +7,24 @@
 namespace fem {
 namespace {
 
-RailSystem own_track(const FemCase& input) {
-  return build_rail_system(input.fem, input.seats, SeatOwner::own_supports);
+WheelTrack make_track(const FemCase& input, const RailModel& rail) {
+  return WheelTrack(rail, input.fem, input.wheel, input.coupling.window_s, {});
 }
 
-WheelTrack make_track(const FemCase& input, const RailSystem& system) {
-  return WheelTrack(system, input.fem, input.wheel, input.coupling.window_s, {});
-}
-
-void print_section(const RailSystem& system, const FemSettings& settings) {
-  const SectionProperties p = system.mesh->section().properties();
+void print_section(const RailModel& rail, const FemSettings& settings) {
+  const RailFigures figures = rail.figures();
+  const SectionProperties& p = figures.section;
   std::printf("section %s: area %.3f cm2, I vertical %.1f cm4, I lateral %.1f cm4, centroid %.1f mm, %.2f kg/m\n",
               settings.profile.c_str(), p.area * 1e4, p.inertia_vertical * 1e8, p.inertia_lateral * 1e8,
               p.centroid_height * 1e3, p.area * settings.material.density);
-  std::printf("rail %.2f m, %d elements of %.3f m length, %d unknowns\n",
-              system.mesh->planes().back() - system.mesh->planes().front(), system.mesh->n_elements(),
-              system.element_length, system.n_dofs());
+  std::printf("rail %.2f m, %d elements of %.3f m length, %d unknowns\n", figures.length, figures.n_elements,
+              figures.element_length, rail.track().n_dofs());
 }
 
 // Vertical pad force that presses on each support [N].
-std::vector<double> seat_forces(const RailSystem& system, const TrackState& state) {
-  const Eigen::VectorXd u = system.support_cells * state.displacement.head(system.mesh->n_dofs());
-  const Eigen::VectorXd v = system.support_cells * state.velocity.head(system.mesh->n_dofs());
+std::vector<double> seat_forces(const TrackSystem& system, const TrackState& state) {
+  const Eigen::VectorXd u = system.support_cells * state.displacement.head(system.n_rail_dofs);
+  const Eigen::VectorXd v = system.support_cells * state.velocity.head(system.n_rail_dofs);
   std::vector<double> forces;
   Eigen::Index value = 2;
   for (std::size_t i = 0; i < system.support_seats.size(); ++i) {
@@ -47,19 +43,20 @@ std::vector<double> seat_forces(const RailSystem& system, const TrackState& stat
 
 }  // namespace
 
-void check_case(const FemCase& input) {
-  const RailSystem system = build_rail_system(input.fem, input.seats, SeatOwner::partner);
-  const HeadBand band(system);
+void check_case(const FemCase& input, const RailBuilder& build) {
+  const auto rail = build(input.fem, input.seats, SeatOwner::partner);
+  const RunningBand& band = rail->band();
   band.at(input.wheel.start);
   band.at(input.wheel.start +
           input.wheel.speed * input.coupling.window_s * static_cast<double>(input.coupling.n_windows));
   Hertz(input.wheel.radius, input.wheel.rail_crown_radius, input.wheel.wheel, input.wheel.rail);
 }
 
-void print_static(const FemCase& input) {
-  const RailSystem system = own_track(input);
-  print_section(system, input.fem);
-  const WheelTrack track = make_track(input, system);
+void print_static(const FemCase& input, const RailBuilder& build) {
+  const auto rail = build(input.fem, input.seats, SeatOwner::own_supports);
+  const TrackSystem& system = rail->track();
+  print_section(*rail, input.fem);
+  const WheelTrack track = make_track(input, *rail);
   const auto& state = track.state();
   const double hertz = track.hertz().at_force(input.wheel.static_load).approach;
   std::printf("wheel of %.1f kN at x = %.3f m: rail %.4f mm, Hertz approach %.4f mm, wheel %.4f mm\n",
@@ -70,12 +67,13 @@ void print_static(const FemCase& input) {
     std::printf("seat at x = %6.2f m: %9.3f kN\n", system.support_seats[i].origin[0], forces[i] * 1e-3);
 }
 
-void run_alone(const FemCase& input, const std::string& out) {
-  check_case(input);
-  const RailSystem system = own_track(input);
-  print_section(system, input.fem);
-  WheelTrack track = make_track(input, system);
-  FemRecord record(out, input.file, system, input.fem.material, input.coupling.window_s,
+void run_alone(const FemCase& input, const RailBuilder& build, const std::string& program, const std::string& out) {
+  check_case(input, build);
+  const auto rail = build(input.fem, input.seats, SeatOwner::own_supports);
+  const TrackSystem& system = rail->track();
+  print_section(*rail, input.fem);
+  WheelTrack track = make_track(input, *rail);
+  FemRecord record(out, program, input.file, *rail, input.coupling.window_s,
                    windows_per_output(input.coupling.output_interval_s, input.coupling.window_s));
   record.begin(track);
   double largest = 0.0, smallest = input.wheel.static_load;

@@ -1,4 +1,4 @@
-// What fem_solver does without a partner.
+// What the FEM programs do without a partner.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace fem {
 
-/// Builds the mesh and places the wheel along its whole way. Throws proto::Error for what cannot be run.
-void check_case(const FemCase& input);
+/// Builds the rail and places the wheel along its whole way. Throws proto::Error for what cannot be run.
+void check_case(const FemCase& input, const RailBuilder& build);
 
 /// Prints section, deflection under the standing wheel and seat forces.
-void print_static(const FemCase& input);
+void print_static(const FemCase& input, const RailBuilder& build);
 
-/// Runs the case with every seat on the support model; writes `out`/fem.h5.
-void run_alone(const FemCase& input, const std::string& out);
+/// Runs the case with every seat on the support model; writes `out`/fem.h5 as `program`.
+void run_alone(const FemCase& input, const RailBuilder& build, const std::string& program, const std::string& out);
 
 }  // namespace fem

@@ -200,6 +200,25 @@ NodeWeights RailMesh::interpolation(const Eigen::Vector3d& point) const {
   return row;
 }
 
+std::vector<MotionWeight> RailMesh::motion_at(const Eigen::Vector3d& point) const {
+  const NodeWeights row = interpolation(point);
+  std::vector<MotionWeight> motion;
+  for (std::size_t k = 0; k < row.nodes.size(); ++k)
+    for (int c = 0; c < 3; ++c) motion.push_back({c, 3 * row.nodes[k] + c, row.weights[k]});
+  return motion;
+}
+
+Eigen::MatrixXd RailMesh::rigid_motions(const Eigen::Vector3d& centre) const {
+  Eigen::MatrixXd motions(n_dofs(), 6);
+  for (int n = 0; n < n_nodes(); ++n)
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
+      motions.block<3, 1>(3 * n, i) = axis;
+      motions.block<3, 1>(3 * n, 3 + i) = axis.cross(data_->nodes[n] - centre);
+    }
+  return motions;
+}
+
 NodeWeights RailMesh::section_mean(int plane) const {
   const Eigen::VectorXd volumes = node_volumes();
   NodeWeights row;

@@ -2,23 +2,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <array>
 #include <memory>
 #include <vector>
 
+#include "fem_solver/assembly/rail_kinematics.hpp"
+#include "fem_solver/linear/sparse_matrix.hpp"
+#include "fem_solver/model/material.hpp"
 #include "fem_solver/model/rail_section.hpp"
 
 namespace fem {
-
-using SparseMatrix = Eigen::SparseMatrix<double>;
-
-/// Isotropic linear elastic material.
-struct Material {
-  double young = 210e9;  ///< [Pa]
-  double poisson = 0.3;
-  double density = 7850;  ///< [kg/m3]
-};
 
 /// Value of a nodal field at one place as a weighted sum over nodes.
 struct NodeWeights {
@@ -28,15 +21,17 @@ struct NodeWeights {
 
 /// Extruded mesh of a cross-section along x with Q2 Lagrange elements. Degree of freedom 3 n + c is component c (x, y,
 /// z) of node n. Immutable after construction.
-class RailMesh {
+class RailMesh : public RailKinematics {
  public:
   /// `planes`: ascending x of the element boundaries [m]; `lateral`: y of the section's plane of symmetry [m]. The
   /// foot's bottom face lies at z = 0. Throws proto::Error (bad_data) for fewer than two planes or an inverted element.
   RailMesh(const RailSection& section, const std::vector<double>& planes, double lateral);
-  ~RailMesh();
+  ~RailMesh() override;
 
   int n_nodes() const;
-  int n_dofs() const { return 3 * n_nodes(); }
+  int n_dofs() const override { return 3 * n_nodes(); }
+  std::vector<MotionWeight> motion_at(const Eigen::Vector3d& point) const override;
+  Eigen::MatrixXd rigid_motions(const Eigen::Vector3d& centre) const override;
   int n_elements() const;
   const RailSection& section() const;
   const std::vector<double>& planes() const;

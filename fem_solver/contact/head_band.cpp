@@ -1,13 +1,12 @@
 #include "fem_solver/contact/head_band.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <string>
-
-#include "proto/error.hpp"
 
 namespace fem {
 namespace {
+constexpr int n_spread = 7;  // node planes under the spline
 constexpr std::array<double, 3> simpson{1.0 / 6, 4.0 / 6, 1.0 / 6};
 
 // Cubic B-spline of unit knot distance and unit integral, support [-2, 2].
@@ -35,34 +34,36 @@ double shape(int plane, double t) {
 }
 }  // namespace
 
-HeadBand::HeadBand(const RailSystem& system)
-    : first_x_(system.mesh->planes().front()), spacing_(system.element_length / 2), n_dofs_(system.n_dofs()) {
+std::vector<std::vector<RunningBand::Share>> HeadBand::node_planes(const RailSystem& system) {
   const auto& mesh = *system.mesh;
   const int n_planes = 2 * static_cast<int>(mesh.planes().size()) - 1;
+  std::vector<std::vector<Share>> stations;
   for (int plane = 0; plane < n_planes; ++plane) {
-    const double x = std::min(first_x_ + plane * spacing_, mesh.planes().back());
-    std::array<int, 3> nodes;
+    const double x = std::min(mesh.planes().front() + plane * system.element_length / 2, mesh.planes().back());
+    std::vector<Share> shares;
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d point(x, mesh.lateral() + (k - 1) * mesh.section().head_half_width,
                                   mesh.section().head_height);
       const NodeWeights row = mesh.interpolation(point);
-      nodes[k] = row.nodes[std::max_element(row.weights.begin(), row.weights.end()) - row.weights.begin()];
+      const int node = row.nodes[std::max_element(row.weights.begin(), row.weights.end()) - row.weights.begin()];
+      shares.push_back({3 * node + 2, simpson[k]});
     }
-    nodes_.push_back(nodes);
+    stations.push_back(std::move(shares));
   }
+  return stations;
 }
+
+HeadBand::HeadBand(const RailSystem& system)
+    : RunningBand(node_planes(system), system.n_dofs()),
+      first_x_(system.mesh->planes().front()),
+      spacing_(system.element_length / 2) {}
 
 BandWeights HeadBand::at(double x) const {
   const double centre = (x - first_x_) / spacing_;
   const int element = static_cast<int>(std::floor(centre / 2));
-  BandWeights result;
+  BandWeights result{2 * element - 2, std::vector<double>(n_spread)};
   // The spline reaches one element to each side of its centre: the elements before, around and after it.
-  result.first_plane = 2 * element - 2;
-  if (result.first_plane < 2 || result.first_plane + BandWeights::n_planes + 2 > static_cast<int>(nodes_.size()))
-    throw proto::Error(proto::ExitCode::config,
-                       "the wheel at x = " + std::to_string(x) + " m comes within three elements of the rail's end",
-                       "wheel.start_m, wheel.speed_m_per_s, coupling.duration_s",
-                       "raise fem.n_bays or shorten the run");
+  if (result.first_station < 2 || result.first_station + n_spread + 2 > n_stations()) refuse_end(x);
   // Between the spline's knots and the element boundaries the integrand is of degree five: three Gauss points are
   // exact.
   constexpr double point[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
@@ -75,30 +76,10 @@ BandWeights HeadBand::at(double x) const {
     const double half = (ends[k + 1] - ends[k]) / 2, middle = (ends[k + 1] + ends[k]) / 2;
     for (int g = 0; g < 3 && half > 0; ++g) {
       const double t = middle + half * point[g], value = half * weight[g] * cubic_spline(t - centre);
-      for (int j = 0; j < BandWeights::n_planes; ++j) result.weights[j] += value * shape(result.first_plane + j, t);
+      for (int j = 0; j < n_spread; ++j) result.weights[j] += value * shape(result.first_station + j, t);
     }
   }
   return result;
-}
-
-Eigen::VectorXd HeadBand::station_load(int plane) const {
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(n_dofs_);
-  for (int k = 0; k < 3; ++k) load[3 * nodes_[plane][k] + 2] += simpson[k];
-  return load;
-}
-
-double HeadBand::read(const BandWeights& weights, const Eigen::VectorXd& field) const {
-  double value = 0.0;
-  for (int j = 0; j < BandWeights::n_planes; ++j)
-    for (int k = 0; k < 3; ++k)
-      value += weights.weights[j] * simpson[k] * field[3 * nodes_[weights.first_plane + j][k] + 2];
-  return value;
-}
-
-void HeadBand::add_load(const BandWeights& weights, double force, Eigen::VectorXd& load) const {
-  for (int j = 0; j < BandWeights::n_planes; ++j)
-    for (int k = 0; k < 3; ++k)
-      load[3 * nodes_[weights.first_plane + j][k] + 2] += force * weights.weights[j] * simpson[k];
 }
 
 }  // namespace fem

@@ -21,9 +21,12 @@ struct RailSection {
   std::vector<Eigen::Vector2d> vertices;  ///< (y, z)
   /// Corners of each block in lexicographic order (y runs first): lower left, lower right, upper left, upper right.
   std::vector<std::array<int, 4>> quads;
-  double head_half_width = 0.0;  ///< of the flat top of the middle block, where the wheel runs [m]
-  double head_height = 0.0;      ///< of that flat top [m]
-  double foot_half_width = 0.0;  ///< [m]
+  double head_half_width = 0.0;   ///< of the flat top of the middle block, where the wheel runs [m]
+  double head_height = 0.0;       ///< of that flat top [m]
+  double foot_half_width = 0.0;   ///< [m]
+  double torsion_constant = 0.0;  ///< Saint-Venant's J [m4]; for a beam, as the next two
+  double shear_vertical = 0.0;    ///< shear coefficient kappa: shear area over area
+  double shear_lateral = 0.0;     ///< the same across
 
   /// Block that holds (y, z) to 1e-9 m and the point's coordinates in [0, 1]^2 of it.
   /// Throws proto::Error (bad_data) when no block holds the point.

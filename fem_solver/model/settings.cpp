@@ -1,5 +1,6 @@
 #include "fem_solver/model/settings.hpp"
 
+#include "fem_solver/model/rail_section.hpp"
 #include "proto/case/track.hpp"
 
 namespace fem {
@@ -17,6 +18,10 @@ SupportSettings read_support(const proto::Section& section, const proto::RailSea
   SupportSettings s;
   s.pad_half_lengths = seat.half_lengths;
   s.pad_cells = seat.cells;
+  if (section.has("pad_cells")) {
+    const auto cells = section.integers("pad_cells", 2, Range::between(1, 64));
+    s.pad_cells = {static_cast<int>(cells[0]), static_cast<int>(cells[1])};
+  }
   s.pad_stiffness = triple(section, "pad_stiffness_n_per_m", seat.stiffness);
   s.pad_damping = triple(section, "pad_damping_ns_per_m", seat.damping);
   s.sleeper_mass = section.number_or("sleeper_mass_kg", s.sleeper_mass, Range::positive());

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "fem_solver/assembly/rail_mesh.hpp"
 #include "fem_solver/contact/hertz.hpp"
 #include "fem_solver/model/irregularity.hpp"
+#include "fem_solver/model/material.hpp"
 #include "proto/case/case_file.hpp"
 #include "proto/case/rail_seat.hpp"
 
@@ -52,8 +52,8 @@ struct WheelSettings {
 
 /// Reads `[fem]`: profile, n_bays, element_length_m, young_pa, poisson, density_kg_per_m3, loss_factor,
 /// loss_factor_frequency_hz, gravity, end_dashpot_frequency_hz, initialise_damping_per_s and
-/// [fem.support]: pad_stiffness_n_per_m, pad_damping_ns_per_m (default: those of the first rail seat), sleeper_mass_kg,
-/// ballast_stiffness_n_per_m, ballast_damping_ns_per_m. Spacing from [track], cells from the first rail seat.
+/// [fem.support]: pad_stiffness_n_per_m, pad_damping_ns_per_m, pad_cells (default: those of the first rail seat),
+/// sleeper_mass_kg, ballast_stiffness_n_per_m, ballast_damping_ns_per_m. Spacing from [track].
 FemSettings read_fem(const proto::CaseFile& file, const std::vector<proto::RailSeat>& seats);
 
 /// Reads `[wheel]`: speed_m_per_s, start_m, static_load_n, unsprung_mass_kg, radius_m, rail_crown_radius_m, young_pa,

@@ -3,8 +3,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "fem_solver/assembly/rail_system.hpp"
+#include "fem_solver/rail/rail_model.hpp"
 #include "fem_solver/time/wheel_track.hpp"
 #include "proto/case/case_file.hpp"
 #include "proto/result/field_series.hpp"
@@ -12,17 +13,17 @@
 
 namespace fem {
 
-/// Writes `directory`/fem.h5 with its ParaView sidecar: hexahedra between the elements' corner nodes with displacement,
-/// velocity and von Mises stress, and /TimeSeries with time, wheel position, contact force, wheel displacement and
-/// velocity.
+/// Writes `directory`/fem.h5 with its ParaView sidecar: shape and fields of the rail, and /TimeSeries with time, wheel
+/// position, contact force, wheel displacement and velocity.
 class FemRecord {
  public:
-  /// `interval_windows`: a field step each so many windows, 0 for none. Throws proto::Error (cannot_create).
-  FemRecord(const std::string& directory, const proto::CaseFile& file, const RailSystem& system,
-            const Material& material, double window, std::int64_t interval_windows);
+  /// `program`: who writes; `rail` must outlive it; `interval_windows`: a field step each so many windows, 0 for none.
+  /// Throws proto::Error (cannot_create).
+  FemRecord(const std::string& directory, const std::string& program, const proto::CaseFile& file,
+            const RailModel& rail, double window, std::int64_t interval_windows);
   /// Goes on with the file that an earlier process made with the same arguments, from what its exchange() saved.
-  FemRecord(const std::string& directory, const proto::CaseFile& file, const RailSystem& system,
-            const Material& material, double window, std::int64_t interval_windows, proto::StateArchive& saved);
+  FemRecord(const std::string& directory, const std::string& program, const proto::CaseFile& file,
+            const RailModel& rail, double window, std::int64_t interval_windows, proto::StateArchive& saved);
 
   /// How far the file has come.
   void exchange(proto::StateArchive& archive);
@@ -36,14 +37,11 @@ class FemRecord {
   void close();
 
  private:
-  void fields(const WheelTrack& track);
-  proto::FieldSeriesOptions options(const proto::CaseFile& file);
+  void put_fields(const WheelTrack& track);
 
-  const RailSystem& system_;
-  Material material_;
+  std::vector<RailField> fields_;
   double window_s_;
   std::int64_t interval_windows_;
-  std::vector<int> corner_nodes_;  // node of the mesh for each point of the file
   std::uint64_t n_steps_ = 0, n_history_rows_ = 0;
   std::unique_ptr<proto::FieldSeriesFile> file_;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fem_solver/assembly/cell_operator.hpp"
 #include "proto/result/provenance.hpp"
 #include "proto/result/state_file.hpp"
 
@@ -36,12 +37,13 @@ FemCase read_fem_case(const std::string& path) {
   return {std::move(file), std::move(coupling), std::move(seats), std::move(fem), std::move(wheel)};
 }
 
-std::vector<proto::Fact> model_facts(const RailSystem& system, const FemSettings& settings) {
-  const SectionProperties section = system.mesh->section().properties();
-  return {fact("fem.unknowns", system.n_dofs()),
-          fact("fem.elements", system.mesh->n_elements()),
-          fact("fem.element_length_m", system.element_length),
-          fact("fem.rail_length_m", system.mesh->planes().back() - system.mesh->planes().front()),
+std::vector<proto::Fact> model_facts(const RailModel& rail, const FemSettings& settings) {
+  const RailFigures figures = rail.figures();
+  const SectionProperties& section = figures.section;
+  return {fact("fem.unknowns", rail.track().n_dofs()),
+          fact("fem.elements", figures.n_elements),
+          fact("fem.element_length_m", figures.element_length),
+          fact("fem.rail_length_m", figures.length),
           fact("fem.section_area_m2", section.area),
           fact("fem.section_centroid_m", section.centroid_height),
           fact("fem.section_inertia_vertical_m4", section.inertia_vertical),
@@ -49,13 +51,14 @@ std::vector<proto::Fact> model_facts(const RailSystem& system, const FemSettings
           fact("fem.rail_mass_kg_per_m", section.area * settings.material.density)};
 }
 
-FemParticipant::FemParticipant(FemCase input, std::string name)
+FemParticipant::FemParticipant(FemCase input, std::string program, std::string name, const RailBuilder& build)
     : input_(std::move(input)),
+      program_(std::move(program)),
       name_(std::move(name)),
-      system_(build_rail_system(input_.fem, input_.seats, SeatOwner::partner)) {}
+      rail_(build(input_.fem, input_.seats, SeatOwner::partner)) {}
 
 std::string FemParticipant::build_id() const {
-  return "fem_solver " + proto::project_version();
+  return program_ + " " + proto::project_version();
 }
 
 proto::Capabilities FemParticipant::capabilities() const {
@@ -70,7 +73,7 @@ void FemParticipant::bump() const {
 
 proto::Interface FemParticipant::describe() {
   bump();
-  const CellOperator cells(*system_.mesh, system_.coupled_seats);
+  const auto& seats = rail_->track().coupled_seats;
   return {{{field::sleeper_mean_displacement, "m", 3, false},
            {field::sleeper_mean_velocity, "m/s", 3, false},
            {field::force_carry, "N", 3, false},
@@ -79,12 +82,12 @@ proto::Interface FemParticipant::describe() {
            {field::rail_velocity, "m/s", 3, true},
            {field::force_robin, "N", 3, true},
            {field::force_used, "N", 3, true}},
-          cells.registration(*system_.mesh, system_.coupled_seats)};
+          CellOperator(rail_->kinematics(), seats).registration(rail_->kinematics(), seats)};
 }
 
 proto::Configured FemParticipant::configure(const proto::Configure& request) {
   bump();
-  const auto n = static_cast<std::size_t>(system_.cells.rows());
+  const auto n = static_cast<std::size_t>(rail_->track().cells.rows());
   if (request.stiffness.size() != n || request.damping.size() != n || request.preload.size() != n ||
       request.tension_cutoff.size() != n)
     throw proto::Error(proto::ExitCode::protocol, "Configure does not give the pad of every interface value",
@@ -93,16 +96,16 @@ proto::Configured FemParticipant::configure(const proto::Configure& request) {
   for (std::size_t i = 0; i < n; ++i)
     laws.push_back({request.stiffness[i], request.damping[i], request.preload[i], request.tension_cutoff[i]});
   mode_ = request.mode;
-  track_ = std::make_unique<WheelTrack>(system_, input_.fem, input_.wheel, request.window_s, std::move(laws));
+  track_ = std::make_unique<WheelTrack>(*rail_, input_.fem, input_.wheel, request.window_s, std::move(laws));
   bump();
   track_->band().at(track_->position_at(static_cast<double>(request.windows)));
   output_directory_ = request.output_directory;
   window_s_ = request.window_s;
   smallest_contact_ = largest_contact_ = input_.wheel.static_load;
   committed_ = track_->state();
-  auto facts = model_facts(system_, input_.fem);
+  auto facts = model_facts(*rail_, input_.fem);
   facts.push_back(fact("fem.factor_entries", track_->n_factor_entries()));
-  facts.push_back(fact("fem.local_indentation_m_per_n", track_->statics().indentation()));
+  facts.push_back(fact("fem.local_indentation_m_per_n", track_->indentation()));
   facts.push_back(fact("fem.hertz_stiffness_n_per_m", track_->hertz().at_force(input_.wheel.static_load).stiffness));
   return {std::nullopt, std::move(facts)};
 }
@@ -161,7 +164,7 @@ void FemParticipant::rollback(const proto::Rollback&) {
 
 template <class... Saved>
 void FemParticipant::open_record(Saved&... saved) {
-  record_ = std::make_unique<FemRecord>(output_directory_, input_.file, system_, input_.fem.material, window_s_,
+  record_ = std::make_unique<FemRecord>(output_directory_, program_, input_.file, *rail_, window_s_,
                                         windows_per_output(input_.coupling.output_interval_s, window_s_), saved...);
 }
 
@@ -178,7 +181,7 @@ proto::FieldSet FemParticipant::start() {
 }
 
 void FemParticipant::exchange(proto::StateArchive& archive) {
-  archive.expect_same("model", "the rail", std::to_string(system_.n_dofs()) + " unknowns");
+  archive.expect_same("model", "the rail", std::to_string(rail_->track().n_dofs()) + " unknowns");
   fem::exchange(archive, committed_);
   archive("force_used", force_used_);
   archive("largest_contact", largest_contact_);

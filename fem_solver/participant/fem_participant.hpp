@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "fem_solver/assembly/rail_system.hpp"
 #include "fem_solver/model/settings.hpp"
 #include "fem_solver/output/fem_record.hpp"
+#include "fem_solver/rail/rail_model.hpp"
 #include "fem_solver/time/wheel_track.hpp"
 #include "proto/case/coupling.hpp"
 #include "proto/session/participant.hpp"
@@ -28,12 +28,13 @@ struct FemCase {
 FemCase read_fem_case(const std::string& path);
 
 /// Figures of rail and model for the summary.
-std::vector<proto::Fact> model_facts(const RailSystem& system, const FemSettings& settings);
+std::vector<proto::Fact> model_facts(const RailModel& rail, const FemSettings& settings);
 
 /// Adapter from the protocol to WheelTrack. Rolls back to the last commit.
 class FemParticipant : public proto::Participant {
  public:
-  FemParticipant(FemCase input, std::string name);
+  /// `program`: name of the executable; `name`: in the session. Throws what `build` throws.
+  FemParticipant(FemCase input, std::string program, std::string name, const RailBuilder& build);
 
   void watch(proto::Progress& progress) override { progress_ = &progress; }
   std::string build_id() const override;
@@ -61,9 +62,9 @@ class FemParticipant : public proto::Participant {
   void exchange(proto::StateArchive& archive);
 
   FemCase input_;
-  std::string name_;
+  std::string program_, name_;
   proto::Progress* progress_ = nullptr;
-  RailSystem system_;
+  std::unique_ptr<RailModel> rail_;
   proto::LoadMode mode_ = proto::LoadMode::robin;
   std::unique_ptr<WheelTrack> track_;
   std::unique_ptr<FemRecord> record_;

@@ -5,23 +5,16 @@
 namespace fem {
 namespace {
 
-auto symmetric(const SparseMatrix& lower) {
-  return lower.selfadjointView<Eigen::Lower>();
-}
-
-SparseMatrix system_matrix(const RailSystem& s, double step, double mass_damping) {
+SparseMatrix system_matrix(const TrackSystem& s, double step, double mass_damping) {
   if (!(step > 0)) throw proto::Error(proto::ExitCode::config, "the window is not positive", "coupling.window_s");
   SparseMatrix a = (s.stiffness_damping + step / 2) * s.rail_stiffness;
   a += SparseMatrix(step / 2 * s.support_stiffness + s.support_damping);
-  SparseMatrix inertia(s.n_dofs(), s.n_dofs());
-  inertia.setIdentity();
-  inertia.diagonal() = (2 / step + mass_damping) * s.mass;
-  return a + inertia;
+  return a + (2 / step + mass_damping) * s.mass;
 }
 
 }  // namespace
 
-Newmark::Newmark(const RailSystem& system, double step, double mass_damping)
+Newmark::Newmark(const TrackSystem& system, double step, double mass_damping)
     : system_(system),
       step_(step),
       mass_damping_(mass_damping),
@@ -33,13 +26,15 @@ TrackState Newmark::state_at_rest(const Eigen::VectorXd& displacement) const {
 }
 
 Eigen::VectorXd Newmark::right_side(const TrackState& state, const Eigen::VectorXd& mean_load) const {
-  return mean_load + 2 / step_ * system_.mass.cwiseProduct(state.velocity) - state.elastic;
+  const Eigen::VectorXd momentum = symmetric(system_.mass) * state.velocity;
+  return mean_load + 2 / step_ * momentum - state.elastic;
 }
 
 void Newmark::finish(TrackState& state, const Eigen::VectorXd& mean_velocity, const Eigen::VectorXd& right_side) const {
   // K_r v_m follows from A v_m = right_side, which saves the product with the largest matrix.
   const Eigen::VectorXd support = symmetric(system_.support_stiffness) * mean_velocity;
-  const Eigen::VectorXd rail = (right_side - (2 / step_ + mass_damping_) * system_.mass.cwiseProduct(mean_velocity) -
+  const Eigen::VectorXd momentum = symmetric(system_.mass) * mean_velocity;
+  const Eigen::VectorXd rail = (right_side - (2 / step_ + mass_damping_) * momentum -
                                 symmetric(system_.support_damping) * mean_velocity - step_ / 2 * support) /
                                (system_.stiffness_damping + step_ / 2);
   state.elastic += step_ * (rail + support);
@@ -48,7 +43,8 @@ void Newmark::finish(TrackState& state, const Eigen::VectorXd& mean_velocity, co
 }
 
 double Newmark::energy(const TrackState& state) const {
-  return (state.velocity.dot(system_.mass.cwiseProduct(state.velocity)) + state.displacement.dot(state.elastic)) / 2;
+  const Eigen::VectorXd momentum = symmetric(system_.mass) * state.velocity;
+  return (state.velocity.dot(momentum) + state.displacement.dot(state.elastic)) / 2;
 }
 
 }  // namespace fem

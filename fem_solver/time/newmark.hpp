@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "fem_solver/assembly/rail_system.hpp"
+#include "fem_solver/assembly/track_system.hpp"
 #include "fem_solver/linear/cholesky.hpp"
 
 namespace fem {
@@ -24,7 +24,7 @@ struct TrackState {
 class Newmark {
  public:
   /// `mass_damping`: C gets mass_damping * M on top [1/s]. Throws proto::Error for a step that is not positive.
-  Newmark(const RailSystem& system, double step, double mass_damping);
+  Newmark(const TrackSystem& system, double step, double mass_damping);
 
   double step() const { return step_; }
   const Cholesky& factor() const { return factor_; }
@@ -45,7 +45,7 @@ class Newmark {
   double energy(const TrackState& state) const;
 
  private:
-  const RailSystem& system_;
+  const TrackSystem& system_;
   double step_, mass_damping_;
   Cholesky factor_;
 };

@@ -5,25 +5,26 @@
 
 namespace fem {
 
-WheelTrack::Stepper::Stepper(const RailSystem& system, double step, double mass_damping)
+WheelTrack::Stepper::Stepper(const TrackSystem& system, double step, double mass_damping)
     : newmark(system, step, mass_damping) {
   if (system.cells.rows() == 0) return;
   cell_columns = newmark.factor().solve_columns(Eigen::MatrixXd(system.cells.transpose()));
   compliance = system.cells * cell_columns;
 }
 
-WheelTrack::WheelTrack(const RailSystem& system, const FemSettings& fem, const WheelSettings& wheel, double step,
+WheelTrack::WheelTrack(const RailModel& rail, const FemSettings& fem, const WheelSettings& wheel, double step,
                        std::vector<proto::PadLaw> laws)
-    : system_(system),
+    : system_(rail.track()),
       wheel_(wheel),
       step_(step),
       initialise_damping_(fem.initialise_damping),
       laws_(std::move(laws)),
-      band_(system),
+      band_(rail.band()),
       hertz_(wheel.radius, wheel.rail_crown_radius, wheel.wheel, wheel.rail),
-      statics_(system, band_),
-      march_(system, step, 0.0) {
-  rest(Eigen::VectorXd::Zero(system.cells.rows()));
+      statics_(system_, band_),
+      indentation_(rail.indentation([this](const Eigen::VectorXd& load) { return statics_.flexibility(load); })),
+      march_(system_, step, 0.0) {
+  rest(Eigen::VectorXd::Zero(system_.cells.rows()));
 }
 
 void WheelTrack::rest(const Eigen::VectorXd& sleeper_displacement) {
@@ -37,7 +38,9 @@ void WheelTrack::set_rest(const Eigen::VectorXd& displacement) {
   state_.track = march_.newmark.state_at_rest(displacement);
   state_.windows = 0;
   state_.wheel_position = wheel_.start;
-  const double rail = band_.read(band_.at(wheel_.start), displacement) + statics_.indentation() * wheel_.static_load;
+  // The contact takes the excess out of the rail's descent, here as in add_wheel().
+  const BandWeights place = band_.at(wheel_.start);
+  const double rail = band_.read(place, displacement) + excess_flexibility(place) * wheel_.static_load;
   state_.wheel_displacement = rail + wheel_.irregularity.height_at(wheel_.start) -
                               std::pow(wheel_.static_load / hertz_.coefficient(), 2.0 / 3.0);
   state_.wheel_velocity = 0.0;
@@ -72,13 +75,13 @@ WindowOutput WheelTrack::march(const WindowInput& input) {
 
 Eigen::VectorXd WheelTrack::contact_response(Stepper& stepper, const BandWeights& place) const {
   auto& stations = stepper.stations;
-  stations.erase(stations.begin(), stations.lower_bound(place.first_plane));
+  stations.erase(stations.begin(), stations.lower_bound(place.first_station));
   Eigen::VectorXd response = Eigen::VectorXd::Zero(system_.n_dofs());
-  for (int j = 0; j < BandWeights::n_planes; ++j) {
-    const int plane = place.first_plane + j;
-    auto found = stations.find(plane);
+  for (std::size_t j = 0; j < place.weights.size(); ++j) {
+    const int station = place.first_station + static_cast<int>(j);
+    auto found = stations.find(station);
     if (found == stations.end())
-      found = stations.emplace(plane, stepper.newmark.response(band_.station_load(plane))).first;
+      found = stations.emplace(station, stepper.newmark.response(band_.station_load(station))).first;
     response += place.weights[j] * found->second;
   }
   return response;
@@ -92,7 +95,7 @@ void WheelTrack::add_wheel(InterfaceProblem& problem, const BandWeights& place, 
   const double rail_free = band_.read(place, state_.track.displacement) + half * band_.read(place, free);
   problem.coefficient = hertz_.coefficient();
   problem.approach_0 = rail_free + wheel_.irregularity.height_at(position) - wheel_free;
-  problem.contact_slope = half * (band_.read(place, response) + per_force) - statics_.indentation();
+  problem.contact_slope = half * (band_.read(place, response) + per_force) - excess_flexibility(place);
 }
 
 WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Wheel wheel) {

@@ -8,10 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "fem_solver/assembly/rail_system.hpp"
-#include "fem_solver/contact/head_band.hpp"
 #include "fem_solver/contact/hertz.hpp"
 #include "fem_solver/model/settings.hpp"
+#include "fem_solver/rail/rail_model.hpp"
 #include "fem_solver/time/interface_solve.hpp"
 #include "fem_solver/time/newmark.hpp"
 #include "fem_solver/time/statics.hpp"
@@ -45,8 +44,8 @@ struct RunState {
 /// average acceleration, contact evaluated at mid-window position and mean approach; it may open and does not stick.
 class WheelTrack {
  public:
-  /// `laws`: one per coupled value. `step`: window H [s].
-  WheelTrack(const RailSystem& system, const FemSettings& fem, const WheelSettings& wheel, double step,
+  /// `rail` must outlive it. `laws`: one per coupled value. `step`: window H [s].
+  WheelTrack(const RailModel& rail, const FemSettings& fem, const WheelSettings& wheel, double step,
              std::vector<proto::PadLaw> laws);
 
   /// Sets the static state with the wheel at its start and the coupled sleepers held at `sleeper_displacement` [m].
@@ -73,7 +72,9 @@ class WheelTrack {
   double position_at(double window) const { return wheel_.start + wheel_.speed * step_ * window; }
   const Hertz& hertz() const { return hertz_; }
   const Statics& statics() const { return statics_; }
-  const HeadBand& band() const { return band_; }
+  const RunningBand& band() const { return band_; }
+  /// RailModel::indentation() [m/N].
+  double indentation() const { return indentation_; }
   double n_factor_entries() const { return march_.newmark.factor().n_factor_entries(); }
 
   Eigen::VectorXd cell_displacement() const { return system_.cells * state_.track.displacement; }
@@ -82,7 +83,7 @@ class WheelTrack {
  private:
   // A Newmark operator with what the interface needs of its inverse.
   struct Stepper {
-    Stepper(const RailSystem& system, double step, double mass_damping);
+    Stepper(const TrackSystem& system, double step, double mass_damping);
     Newmark newmark;
     Eigen::MatrixXd cell_columns;             // A^-1 Phi'
     Eigen::MatrixXd compliance;               // Phi A^-1 Phi'
@@ -92,18 +93,20 @@ class WheelTrack {
 
   WindowOutput advance(Stepper& stepper, const WindowInput& input, Wheel wheel);
   Eigen::VectorXd contact_response(Stepper& stepper, const BandWeights& place) const;
+  double excess_flexibility(const BandWeights& place) const { return indentation_ - place.missing_flexibility; }
   void add_wheel(InterfaceProblem& problem, const BandWeights& place, double position, const Eigen::VectorXd& response,
                  const Eigen::VectorXd& free) const;
   void set_rest(const Eigen::VectorXd& displacement);
   double static_residual(const TrackState& before, const Eigen::VectorXd& force_used) const;
 
-  const RailSystem& system_;
+  const TrackSystem& system_;
   WheelSettings wheel_;
   double step_, initialise_damping_;
   std::vector<proto::PadLaw> laws_;
-  HeadBand band_;
+  const RunningBand& band_;
   Hertz hertz_;
   Statics statics_;
+  double indentation_;
   Stepper march_;
   std::unique_ptr<Stepper> relax_;  // built by the first relax(), gone after start()
   RunState state_;

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "fem_solver/assembly/cell_operator.hpp"
+#include "fem_solver/beam/beam_rail.hpp"
 #include "fem_solver/contact/head_band.hpp"
 #include "proto/error.hpp"
 #include "tests/support/fem_cases.hpp"
@@ -35,26 +36,30 @@ TEST(RailSection, locates_points_and_refuses_others) {
   EXPECT_THROW(fem::rail_section("60E9"), proto::Error);
 }
 
-class Cells : public ::testing::Test {
+enum class Kind { solid, beam };
+
+class Cells : public ::testing::TestWithParam<Kind> {
  protected:
-  static void SetUpTestSuite() {
-    mesh_ = std::make_unique<fem::RailMesh>(fem::rail_section("60E1"),
-                                            std::vector<double>{-.45, -.3, -.15, 0, .15, .3, .45}, 0.7535);
+  void SetUp() override {
+    const auto section = fem::rail_section("60E1");
+    const std::vector<double> planes{-.45, -.3, -.15, 0, .15, .3, .45};
+    if (GetParam() == Kind::solid)
+      rail_ = std::make_unique<fem::RailMesh>(section, planes, 0.7535);
+    else
+      rail_ = std::make_unique<fem::BeamKinematics>(section, fem::Material{}, fem::RailPlanes{planes, 4, 0.15}, 0.7535);
     seats_ = {tests::rail_seat(0.0), tests::rail_seat(0.21)};
     // The second one stands askew and has cells of its own.
     seats_[1].axes = Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     seats_[1].half_lengths = {0.06, 0.06};
     seats_[1].cells = {2, 4};
   }
-  static void TearDownTestSuite() { mesh_.reset(); }
-  static std::unique_ptr<fem::RailMesh> mesh_;
-  static std::vector<proto::RailSeat> seats_;
+  std::unique_ptr<fem::RailKinematics> rail_;
+  std::vector<proto::RailSeat> seats_;
 };
-std::unique_ptr<fem::RailMesh> Cells::mesh_;
-std::vector<proto::RailSeat> Cells::seats_;
+INSTANTIATE_TEST_SUITE_P(solid_and_beam, Cells, ::testing::Values(Kind::solid, Kind::beam));
 
-TEST_F(Cells, rigid_motions_and_resultants_are_exact) {
-  const auto registered = fem::CellOperator(*mesh_, seats_).registration(*mesh_, seats_);
+TEST_P(Cells, rigid_motions_and_resultants_are_exact) {
+  const auto registered = fem::CellOperator(*rail_, seats_).registration(*rail_, seats_);
   ASSERT_EQ(registered.size(), 2u);
   for (std::size_t s = 0; s < seats_.size(); ++s) {
     const auto& seat = seats_[s];
@@ -73,10 +78,10 @@ TEST_F(Cells, rigid_motions_and_resultants_are_exact) {
   }
 }
 
-TEST_F(Cells, a_pad_wider_than_the_foot_is_refused) {
+TEST_P(Cells, a_pad_wider_than_the_foot_is_refused) {
   auto seats = seats_;
   seats[0].half_lengths[1] = 0.09;
-  EXPECT_THROW(fem::CellOperator(*mesh_, seats), proto::Error);
+  EXPECT_THROW(fem::CellOperator(*rail_, seats), proto::Error);
 }
 
 TEST(HeadBand, weights_sum_to_one_and_reproduce_the_place) {
@@ -92,6 +97,22 @@ TEST(HeadBand, weights_sum_to_one_and_reproduce_the_place) {
     EXPECT_TRUE(near_abs(load.dot(ramp), -5.0 * x, 1e-11));
   }
   EXPECT_THROW(band.at(3.2), proto::Error);
+}
+
+TEST(BeamBand, weights_reproduce_deflection_and_slope) {
+  const fem::BeamRail rail(tests::small_track(), {tests::rail_seat(0.0)}, fem::SeatOwner::partner);
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(rail.track().n_dofs()), turn = shift;
+  const Eigen::MatrixXd rigid = rail.kinematics().rigid_motions(Eigen::Vector3d::Zero());
+  shift.head(rigid.rows()) = rigid.col(2), turn.head(rigid.rows()) = rigid.col(4);
+  for (const double x : {-0.31, 0.0, 0.07, 0.149}) {
+    const auto place = rail.band().at(x);
+    EXPECT_TRUE(near_abs(rail.band().read(place, shift), 1.0, 1e-12));
+    EXPECT_TRUE(near_abs(rail.band().read(place, turn), -x, 1e-12));
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(rail.track().n_dofs());
+    rail.band().add_load(place, -5.0, load);
+    EXPECT_TRUE(near_abs(load.dot(turn), 5.0 * x, 1e-11));
+  }
+  EXPECT_THROW(rail.band().at(3.2), proto::Error);
 }
 
 TEST(RailSystem, refuses_a_seat_between_the_sleepers) {

@@ -1,4 +1,5 @@
-// fem_solver: the rail and the wheel, as a participant of a coupled run or alone.
+#include "fem_solver/app/command_line.hpp"
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -6,10 +7,11 @@
 #include "fem_solver/participant/fem_participant.hpp"
 #include "proto/error.hpp"
 
+namespace fem {
 namespace {
 
-int run(int argc, char** argv) {
-  CLI::App app("Rail and wheel of a ballasted track (finite elements).", "fem_solver");
+int run(int argc, char** argv, const FemProgram& program) {
+  CLI::App app(program.description, program.name);
   app.require_subcommand(1);
   std::string path, endpoint, name = "fem", out = ".";
   auto* participant = app.add_subcommand("participant", "take part in a coupled run; started by the coupler");
@@ -17,7 +19,7 @@ int run(int argc, char** argv) {
   participant->add_option("--endpoint", endpoint, "where the coupler listens")->required();
   participant->add_option("--out", out, "output folder");
   participant->add_option("--name", name, "name in the session");
-  auto* check = app.add_subcommand("check", "validate the case's FEM sections and mesh without running");
+  auto* check = app.add_subcommand("check", "validate the case's FEM sections and the rail without running");
   check->add_option("--case", path, "case file")->required();
   auto* statics = app.add_subcommand("static", "print deflection and seat forces with the wheel standing at its start");
   statics->add_option("case", path, "case file")->required();
@@ -30,16 +32,16 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
   }
 
-  auto input = fem::read_fem_case(path);
+  auto input = read_fem_case(path);
   if (check->parsed()) {
-    fem::check_case(input);
+    check_case(input, program.build);
   } else if (statics->parsed()) {
-    fem::print_static(input);
+    print_static(input, program.build);
   } else if (alone->parsed()) {
-    fem::run_alone(input, out);
+    run_alone(input, program.build, program.name, out);
   } else {
     const auto options = proto::read_session_options(endpoint, input.file.hash());
-    fem::FemParticipant body(std::move(input), name);
+    FemParticipant body(std::move(input), program.name, name, program.build);
     proto::serve(body, options);
   }
   return 0;
@@ -47,14 +49,16 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int fem_program(int argc, char** argv, const FemProgram& program) {
   try {
-    return run(argc, argv);
+    return run(argc, argv, program);
   } catch (const proto::Error& error) {
-    std::fprintf(stderr, "fem_solver: %s\n", error.what());
+    std::fprintf(stderr, "%s: %s\n", program.name.c_str(), error.what());
     return static_cast<int>(error.code());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "fem_solver: internal error: %s\n", error.what());
+    std::fprintf(stderr, "%s: internal error: %s\n", program.name.c_str(), error.what());
     return static_cast<int>(proto::ExitCode::internal);
   }
 }
+
+}  // namespace fem

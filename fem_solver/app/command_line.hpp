@@ -1,0 +1,19 @@
+// The command line that the FEM programs have in common.
+#pragma once
+
+#include <string>
+
+#include "fem_solver/rail/rail_model.hpp"
+
+namespace fem {
+
+/// One program: its rail is what distinguishes it.
+struct FemProgram {
+  std::string name, description;
+  RailBuilder build;
+};
+
+/// Carries out `participant`, `check`, `static` or `run`; the exit code. Errors become one line on stderr.
+int fem_program(int argc, char** argv, const FemProgram& program);
+
+}  // namespace fem

@@ -1,0 +1,144 @@
+#include "fem_solver/assembly/track_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem_solver/assembly/cell_operator.hpp"
+#include "proto/error.hpp"
+
+namespace fem {
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+constexpr double pi = 3.14159265358979323846;
+
+[[noreturn]] void refuse(const proto::RailSeat& seat, const std::string& problem, const std::string& advice) {
+  throw proto::Error(proto::ExitCode::config, "rail seat '" + seat.name + "' " + problem, "[[rail_seat]] origin_m",
+                     advice);
+}
+
+// Seats of the case keep their pads on the own supports too; the others take the pad of the settings.
+std::vector<proto::RailSeat> support_seats(const FemSettings& s, const std::vector<proto::RailSeat>& seats,
+                                           SeatOwner owner) {
+  std::vector<proto::RailSeat> supports;
+  for (int i = -s.n_bays / 2; i <= s.n_bays / 2; ++i) {
+    const double x = i * s.sleeper_spacing;
+    const auto same =
+        std::find_if(seats.begin(), seats.end(), [&](const auto& q) { return std::abs(q.origin[0] - x) < 1e-6; });
+    if (same != seats.end()) {
+      if (owner == SeatOwner::own_supports) supports.push_back(*same);
+      continue;
+    }
+    proto::RailSeat seat;
+    seat.name = "support " + std::to_string(i);
+    seat.origin = {x, seats.front().origin[1], 0.0};
+    seat.axes.setIdentity();
+    seat.half_lengths = s.support.pad_half_lengths;
+    seat.cells = s.support.pad_cells;
+    seat.stiffness = s.support.pad_stiffness;
+    seat.damping = s.support.pad_damping;
+    supports.push_back(seat);
+  }
+  return supports;
+}
+
+// value' * weight * value for the rows (foot cell value - sleeper component along the seat axis).
+void add_pads(const TrackSystem& system, Triplets& stiffness, Triplets& damping) {
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = system.support_cells;
+  int value = 0;
+  for (std::size_t i = 0; i < system.support_seats.size(); ++i) {
+    const auto& seat = system.support_seats[i];
+    for (int k = 0; k < 3 * seat.n_cells(); ++k, ++value) {
+      std::vector<std::pair<int, double>> row;
+      for (decltype(rows)::InnerIterator it(rows, value); it; ++it) row.emplace_back(it.col(), it.value());
+      for (int c = 0; c < 3; ++c)
+        if (seat.axes(c, k % 3) != 0.0) row.emplace_back(system.sleeper_dof(i, c), -seat.axes(c, k % 3));
+      const auto law = seat.cell_law(k % 3);
+      for (const auto& [a, wa] : row)
+        for (const auto& [b, wb] : row)
+          if (b <= a)
+            stiffness.emplace_back(a, b, law.stiffness * wa * wb), damping.emplace_back(a, b, law.damping * wa * wb);
+    }
+  }
+}
+
+void add_ballast(const TrackSystem& system, const SupportSettings& s, Triplets& stiffness, Triplets& damping) {
+  for (std::size_t i = 0; i < system.support_seats.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const int dof = system.sleeper_dof(i, c);
+      stiffness.emplace_back(dof, dof, s.ballast_stiffness[c]);
+      damping.emplace_back(dof, dof, s.ballast_damping[c]);
+    }
+}
+
+SparseMatrix from(const Triplets& entries, int n) {
+  SparseMatrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+RailPlanes rail_planes(const FemSettings& s) {
+  const int per_bay = static_cast<int>(std::ceil(s.sleeper_spacing / s.element_length - 1e-9));
+  RailPlanes planes{{}, per_bay, s.sleeper_spacing / per_bay};
+  const int half = s.n_bays / 2 * per_bay + (per_bay + 1) / 2;
+  for (int i = -half; i <= half; ++i) planes.x.push_back(i * planes.element_length);
+  return planes;
+}
+
+void check_seats(const FemSettings& s, const std::vector<proto::RailSeat>& seats) {
+  for (const auto& seat : seats) {
+    const double bay = seat.origin[0] / s.sleeper_spacing;
+    if (std::abs(bay - std::round(bay)) > 1e-6)
+      refuse(seat, "does not lie at a multiple of the sleeper spacing", "move it or change track.sleeper_spacing_m");
+    if (std::abs(bay) > s.n_bays / 2 + 1e-6) refuse(seat, "lies beyond the rail", "raise fem.n_bays");
+    if (std::abs(seat.origin[2]) > 1e-9) refuse(seat, "is not at z = 0, the rail foot's bottom", "set z to 0");
+    if (std::abs(seat.origin[1] - seats.front().origin[1]) > 1e-9)
+      refuse(seat, "is not in line with the first seat", "give all seats the same y");
+  }
+}
+
+Eigen::Vector3d end_impedance(const FemSettings& s, const SectionProperties& section) {
+  if (s.end_dashpot_frequency == 0.0) return Eigen::Vector3d::Zero();
+  const double omega = 2 * pi * s.end_dashpot_frequency;
+  const auto bending = [&](double inertia) {
+    return std::pow(s.material.young * inertia * omega * omega / (s.material.density * section.area), 0.25);
+  };
+  return s.material.density * Eigen::Vector3d(std::sqrt(s.material.young / s.material.density),
+                                              bending(section.inertia_lateral), bending(section.inertia_vertical));
+}
+
+TrackSystem assemble_track(const FemSettings& settings, const std::vector<proto::RailSeat>& seats, SeatOwner owner,
+                           const RailKinematics& rail, RailMatrices matrices) {
+  TrackSystem system;
+  system.n_rail_dofs = rail.n_dofs();
+  if (owner == SeatOwner::partner) system.coupled_seats = seats;
+  system.support_seats = support_seats(settings, seats, owner);
+  system.cells = CellOperator(rail, system.coupled_seats).matrix();
+  system.support_cells = CellOperator(rail, system.support_seats).matrix();
+
+  // Sleepers are measured from their own state of rest, as the coupled ones are: only the rail has weight here.
+  const int n_sleeper = 3 * static_cast<int>(system.support_seats.size()), n = system.n_rail_dofs + n_sleeper;
+  system.cells.conservativeResize(system.cells.rows(), n);
+  system.weight = Eigen::VectorXd::Zero(n);
+  if (settings.gravity) system.weight.head(system.n_rail_dofs) = matrices.weight;
+  system.mass = std::move(matrices.mass);
+  system.mass.conservativeResize(n, n);
+  for (int dof = system.n_rail_dofs; dof < n; ++dof) system.mass.insert(dof, dof) = settings.support.sleeper_mass;
+  system.mass.makeCompressed();
+
+  Triplets stiffness, damping;
+  add_pads(system, stiffness, damping);
+  add_ballast(system, settings.support, stiffness, damping);
+  for (int dof = 0; dof < system.n_rail_dofs; ++dof)
+    if (matrices.end_damping[dof] != 0.0) damping.emplace_back(dof, dof, matrices.end_damping[dof]);
+  system.support_stiffness = from(stiffness, n);
+  system.support_damping = from(damping, n);
+  system.rail_stiffness = std::move(matrices.stiffness);
+  system.rail_stiffness.conservativeResize(n, n);
+  system.stiffness_damping = settings.loss_factor / (2 * pi * settings.loss_factor_frequency);
+  return system;
+}
+
+}  // namespace fem
