@@ -5,7 +5,7 @@
 
 #include "proto/case/case_file.hpp"
 #include "qdem_solver/bed/bed.hpp"
-#include "qdem_solver/participant/load_history.hpp"
+#include "qdem_solver/participant/load_settings.hpp"
 #include "qdem_solver/sensors/sensor_settings.hpp"
 
 namespace qdem {
@@ -14,22 +14,23 @@ namespace qdem {
 struct RunAlone {
   double duration = 0.0;         ///< [s]
   double output_interval = 0.0;  ///< [s]; 0: only the last state
-  LoadHistory load;              ///< downward force on the pads of all seats together; empty: none
+  std::vector<LoadSettings> loads;
 };
 
 struct QdemCase {
   BedPhysics physics;
-  double step_safety = 0.8;         ///< share of the computed stability bound
-  double largest_step = 0.0;        ///< the user's own limit [s]; 0: none
-  int threads = 0;                  ///< 0: as many as the environment gives
-  double initialise_damping = 0.5;  ///< Cundall's damping in the initialise phase [-]
+  double step_safety = 0.8;           ///< share of the computed stability bound
+  double largest_step = 0.0;          ///< the user's own limit [s]; 0: none
+  int threads = 0;                    ///< 0: as many as the environment gives
+  double initialise_damping = 0.5;    ///< Cundall's damping in the initialise phase [-]
+  int steps_per_viscous_sample = 16;  ///< see EngineOptions
   SensorsSettings sensors;
   RunAlone run;
 };
 
 /// Reads
 ///   [qdem] particle_interaction ("quadruple", "bond"), step_safety, largest_step_s, threads, gravity_m_per_s2,
-///     initialise_damping, sensor_interval_s
+///     initialise_damping, steps_per_viscous_sample, sensor_interval_s
 ///   [[qdem.sensor]] (sensors/sensor_settings.hpp)
 ///   [[qdem.material]] name ("stone", "sleeper"; both once), young_pa, poisson, density_kg_per_m3, and one of
 ///     retardation_time_s; loss_factor with loss_factor_frequency_hz; lame_viscosity_pa_s with shear_viscosity_pa_s
@@ -37,7 +38,7 @@ struct QdemCase {
 ///     contact_time_s with contact_mass_kg (of two stones of that mass); damping_ratio or restitution;
 ///     tangential_ratio, friction, ground_friction, rounding_m
 ///   [qdem.run] duration_s, output_interval_s
-///   [qdem.run.load] (load_history.hpp)
+///   [[qdem.run.load]] (load_settings.hpp)
 /// and refuses every other key. Throws proto::Error (config).
 QdemCase read_qdem_case(const proto::CaseFile& file);
 

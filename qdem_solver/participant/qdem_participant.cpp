@@ -1,6 +1,7 @@
 #include "qdem_solver/participant/qdem_participant.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <utility>
@@ -22,7 +23,11 @@ namespace field = proto::field;
 constexpr double release_time_s = 2e-3;
 
 QdemParticipant::QdemParticipant(proto::CaseFile file, BedSource source, std::string name, std::string out)
-    : file_(std::move(file)), source_(std::move(source)), name_(std::move(name)), out_(std::move(out)) {
+    : file_(std::move(file)),
+      source_(std::move(source)),
+      name_(std::move(name)),
+      out_(std::move(out)),
+      energy_([](const std::string& line) { spdlog::warn("{}", line); }) {
   check_case(file_);
   output_interval_ = proto::read_coupling(file_).output_interval_s;
 }
@@ -133,7 +138,7 @@ void QdemParticipant::open_files() {
   const auto attributes = bed_->attributes(file_);
   if (output_interval_ > 0) {
     fields_ = std::make_unique<FieldsFile>(out_ + "/qdem.h5", bed_->model(), bed_->state(), attributes);
-    fields_->write(0.0, bed_->state(), bed_->engine());
+    fields_->write(0.0, bed_->state(), bed_->engine(), energy_.look(bed_->engine(), bed_->state()));
   }
   const SensorsSettings& sensors = bed_->settings().sensors;
   if (sensors.list.empty()) return;
@@ -146,7 +151,11 @@ void QdemParticipant::commit(const proto::Commit& request) {
   if (!marching_) return;
   const double time = static_cast<double>(request.window + 1) * window_s_;
   if (sensors_) sensors_->look(time, bed_->state(), bed_->engine().contacts());
-  if (fields_ && output_is_due(request.window)) fields_->write(time, bed_->state(), bed_->engine());
+  const bool due = fields_ && output_is_due(request.window);
+  if (!due && bed_->state().step - last_energy_look_ < steps_per_energy_look) return;
+  last_energy_look_ = bed_->state().step;
+  const EnergyBalance& balance = energy_.look(bed_->engine(), bed_->state());
+  if (due) fields_->write(time, bed_->state(), bed_->engine(), balance);
 }
 
 void QdemParticipant::rollback(const proto::Rollback&) {
@@ -155,7 +164,7 @@ void QdemParticipant::rollback(const proto::Rollback&) {
 
 proto::FieldSet QdemParticipant::start() {
   if (relaxing_) bed_->release(release_time_s, rail_foot_);
-  bed_->reset_clock();
+  bed_->begin_march();
   bed_->find_step(window_s_);
   committed_step_ = bed_->largest_step();
   marching_ = true;
@@ -178,6 +187,8 @@ void QdemParticipant::exchange(proto::StateArchive& archive) {
   archive("windows_above_bound", windows_above_bound_);
   archive("rail_foot", rail_foot_);
   archive("start_positions", start_positions_);
+  archive("last_energy_look", last_energy_look_);
+  energy_.exchange(archive);
 }
 
 std::uint64_t QdemParticipant::save(const proto::Save& request) {
@@ -224,12 +235,17 @@ std::vector<proto::Fact> QdemParticipant::finish() {
   if (sensors_) sensors_->close();
   fields_.reset(), sensors_.reset();
   const auto contacts = bed_->engine().contacts().report(bed_->state());
-  return {{"qdem.end.state_hash", std::nullopt, fmt::format("{:016x}", end.hash())},
-          {"qdem.end.coordination_number", contacts.coordination_number, {}},
-          {"qdem.end.largest_penetration_m", contacts.largest_penetration, {}},
-          {"qdem.windows_above_bound", static_cast<double>(windows_above_bound_), {}},
-          {"qdem.steps", static_cast<double>(bed_->state().step), {}},
-          {"qdem.candidate_rebuilds", static_cast<double>(bed_->state().contact.rebuilds), {}}};
+  std::vector<proto::Fact> facts{{"qdem.end.state_hash", std::nullopt, fmt::format("{:016x}", end.hash())},
+                                 {"qdem.end.coordination_number", contacts.coordination_number, {}},
+                                 {"qdem.end.largest_penetration_m", contacts.largest_penetration, {}},
+                                 {"qdem.windows_above_bound", static_cast<double>(windows_above_bound_), {}},
+                                 {"qdem.steps", static_cast<double>(bed_->state().step), {}},
+                                 {"qdem.candidate_rebuilds", static_cast<double>(bed_->state().contact.rebuilds), {}}};
+  const bool stepped = !before_window_.x.empty();
+  if (marching_ && stepped) energy_.look(bed_->engine(), bed_->state());
+  const auto energy = energy_.facts();
+  facts.insert(facts.end(), energy.begin(), energy.end());
+  return facts;
 }
 
 }  // namespace qdem

@@ -9,6 +9,7 @@
 #include "proto/case/case_file.hpp"
 #include "proto/session/participant.hpp"
 #include "qdem_solver/output/fields_file.hpp"
+#include "qdem_solver/participant/energy_watch.hpp"
 #include "qdem_solver/participant/track_bed.hpp"
 #include "qdem_solver/sensors/sensor_file.hpp"
 
@@ -59,6 +60,8 @@ class QdemParticipant : public proto::Participant {
   std::unique_ptr<TrackBed> bed_;
   std::unique_ptr<FieldsFile> fields_;
   std::unique_ptr<SensorFile> sensors_;
+  EnergyWatch energy_;
+  std::int64_t last_energy_look_ = 0;  ///< State::step
   State before_window_;
   double window_s_ = 0.0, output_interval_ = 0.0;
   double committed_step_ = 0.0;           ///< largest stable one from the last commit [s]

@@ -6,8 +6,8 @@
 
 #include <cstdint>
 
-#include "qdem_solver/physics/bond_force.hpp"
-#include "qdem_solver/physics/quadruple_force.hpp"
+#include "qdem_solver/physics/bond_dissipation.hpp"
+#include "qdem_solver/physics/quadruple_dissipation.hpp"
 
 namespace qdem::cpu {
 
@@ -110,6 +110,8 @@ struct Gather {
 struct ElementKernels {
   void (*lane_forces)(const LaneForces&);
   void (*single_forces)(const SingleForces&);
+  void (*lane_power)(const LaneForces&, double* sums);  ///< dissipated by each of the eight bodies [W]; force unused
+  double (*single_power)(const SingleForces&);          ///< by the elements of the job [W]; slots unused
 };
 
 struct Kernels {

@@ -108,6 +108,8 @@ void single_forces(const SingleForces& job) {
   }
 }
 
+#include "qdem_solver/engine/cpu/dissipation_body.hpp"
+
 inline double drift_value(const Drift& job, std::int64_t i) {
   const double move = job.dt * (job.v[i] + 0.5 * job.dt * job.a[i]);
   job.x[i] += move;
@@ -320,8 +322,9 @@ void scale_inertia(const ScaleInertia& job) {
 
 const Kernels& QDEM_KERNELS() {
   static const Kernels table{QDEM_INSTRUCTION_SET,
-                             {lane_forces<Quadruples>, single_forces<Quadruples>},
-                             {lane_forces<Bonds>, single_forces<Bonds>},
+                             {lane_forces<Quadruples>, single_forces<Quadruples>, lane_power<QuadruplePower>,
+                              single_power<QuadruplePower>},
+                             {lane_forces<Bonds>, single_forces<Bonds>, lane_power<BondPower>, single_power<BondPower>},
                              drift,
                              kick,
                              gather,
