@@ -59,14 +59,14 @@ void run_command(const std::string& case_path, const std::string& out) {
   const auto warn = [](const std::string& line) { spdlog::warn("{}", line); };
   const auto figures = run_alone(file, bed_of_case, out, report, warn);
   if (isatty(fileno(stderr)) != 0) fmt::print(stderr, "\n");
+  const EnergyBalance& energy = figures.energy;
   fmt::print("steps                     {} of {:.4g} to {:.4g} s\n", figures.steps, figures.smallest_step,
              figures.largest_step);
   fmt::print("wall time                 {:.2f} s ({:.1f} million element updates a second)\n", figures.wall,
              1e-6 * figures.element_updates_per_s);
   fmt::print("sleeper at the seats      {:.4f} mm along their normal\n", 1e3 * figures.sleeper_displacement);
   fmt::print("pad force on the sleeper  {:.1f} N along the normal\n", figures.pad_force);
-  fmt::print("kinetic energy            {:.3e} J\n", figures.kinetic_energy);
-  const EnergyBalance& energy = figures.energy;
+  fmt::print("kinetic energy            {:.3e} J\n", energy.stored.kinetic);
   fmt::print("energy                    {:.4g} J of work; dissipated: elements {:.3g}, contact dashpots {:.3g}, "
              "friction {:.3g} J\n",
              energy.work, energy.viscous, energy.contact_dashpots, energy.friction);

@@ -70,7 +70,6 @@ class OutputClock {
 void add_end_state(TrackBed& bed, EnergyWatch& energy, RunFigures& figures) {
   figures.energy = energy.look(bed.engine(), bed.state());
   figures.largest_residual = energy.largest_residual();
-  figures.kinetic_energy = figures.energy.stored.kinetic;
   figures.coordination_number = bed.engine().contacts().report(bed.state()).coordination_number;
   const auto displacement = bed.pad_displacement();
   for (std::size_t i = 2; i < displacement.size(); i += 3) {

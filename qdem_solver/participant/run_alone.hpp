@@ -17,7 +17,6 @@ struct RunFigures {
   double smallest_step = 0.0, largest_step = 0.0;  ///< [s]
   double wall = 0.0;                               ///< integration only [s]
   double element_updates_per_s = 0.0;
-  double kinetic_energy = 0.0;        ///< at the end [J]
   double sleeper_displacement = 0.0;  ///< mean along the seats' normals at the end [m]
   double pad_force = 0.0;             ///< sum along the seats' normals at the end [N]
   double coordination_number = 0.0;
