@@ -67,9 +67,10 @@ void run_command(const std::string& case_path, const std::string& out) {
   fmt::print("sleeper at the seats      {:.4f} mm along their normal\n", 1e3 * figures.sleeper_displacement);
   fmt::print("pad force on the sleeper  {:.1f} N along the normal\n", figures.pad_force);
   fmt::print("kinetic energy            {:.3e} J\n", energy.stored.kinetic);
-  fmt::print("energy                    {:.4g} J of work; dissipated: elements {:.3g}, contact dashpots {:.3g}, "
-             "friction {:.3g} J\n",
-             energy.work, energy.viscous, energy.contact_dashpots, energy.friction);
+  fmt::print(
+      "energy                    {:.4g} J of work; dissipated: elements {:.3g}, contact dashpots {:.3g}, "
+      "friction {:.3g} J\n",
+      energy.work, energy.viscous, energy.contact_dashpots, energy.friction);
   fmt::print("energy residual           {:.2e} of {:.3g} J that were moved, {:.2e} at most\n", energy.relative(),
              energy.scale, figures.largest_residual);
   fmt::print("coordination number       {:.2f}\n", figures.coordination_number);

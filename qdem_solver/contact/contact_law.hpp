@@ -30,10 +30,10 @@ struct TouchForce {
 
 /// F_n = max(0, k_n delta - c_n v_n);  u_t turned into the tangent plane, then advanced by v_t dt;
 /// F_t = -k_t u_t - c_t v_t, limited to mu F_n with u_t reset so that the spring carries the limit.
-/// The slider yields by what of v_t does not go into the spring, v_s = v_t - u_t'; it dissipates -F_t . v_s, the dashpots
-/// (k_n delta - F_n) v_n and c_t v_t . u_t'. With the springs' energies these add up to the power of the two forces.
-/// c = 2 zeta sqrt(m_eff k), so that bodies that meet in one point part with the restitution that zeta stands for. The
-/// standard DEM law (Cundall and Strack 1979).
+/// The slider yields by what of v_t does not go into the spring, v_s = v_t - u_t'; it dissipates -F_t . v_s, the
+/// dashpots (k_n delta - F_n) v_n and c_t v_t . u_t'. With the springs' energies these add up to the power of the two
+/// forces. c = 2 zeta sqrt(m_eff k), so that bodies that meet in one point part with the restitution that zeta stands
+/// for. The standard DEM law (Cundall and Strack 1979).
 class VoigtCoulombLaw {
  public:
   HOUSE_HOST_DEVICE VoigtCoulombLaw(const ContactLaw& law, double friction)

@@ -44,7 +44,7 @@ struct ContactStage::Data {
   std::vector<EntryForce> forces;
   LiveEntries live;
   std::vector<ContactPower> powers;  ///< of the chunks of `live`
-  std::vector<double> wake;  ///< sum of both sides' travel below which an entry cannot touch [m]
+  std::vector<double> wake;          ///< sum of both sides' travel below which an entry cannot touch [m]
   double last_travel = 0.0;
   std::int64_t last_step = -1;
 

@@ -19,7 +19,7 @@ struct EntryForce {
   double overlap = 0.0;  ///< [m]
   double energy = 0.0;   ///< of its springs [J]
   ContactPower dissipated;
-  double gap = 0.0;      ///< while it does not touch: no force before the features came nearer by this [m]
+  double gap = 0.0;  ///< while it does not touch: no force before the features came nearer by this [m]
 };
 
 /// Positions and velocities the kernels read.

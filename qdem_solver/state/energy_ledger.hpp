@@ -19,16 +19,16 @@ struct ContactPower {
 /// Flows since the ledger was opened. Part of State, so that a snapshot holds it.
 struct EnergyLedger {
   bool open = false;
-  StoredEnergy start;              ///< when it was opened
-  std::int64_t first_step = 0;     ///< State::step then
-  double work = 0.0;               ///< of pads and loads on the bodies [J]
-  double largest_work = 0.0;       ///< largest |work| so far [J]
-  double contact_dashpots = 0.0;   ///< dissipated [J]
-  double friction = 0.0;           ///< dissipated [J]
-  double viscous = 0.0;            ///< dissipated in the elements until viscous_time [J]
-  double viscous_time = 0.0;       ///< State::time of the last sample [s]
-  double viscous_power = 0.0;      ///< at the last sample [W]
-  ContactPower contact_power;      ///< at the state's time level; kept while the ledger is closed, too
+  StoredEnergy start;             ///< when it was opened
+  std::int64_t first_step = 0;    ///< State::step then
+  double work = 0.0;              ///< of pads and loads on the bodies [J]
+  double largest_work = 0.0;      ///< largest |work| so far [J]
+  double contact_dashpots = 0.0;  ///< dissipated [J]
+  double friction = 0.0;          ///< dissipated [J]
+  double viscous = 0.0;           ///< dissipated in the elements until viscous_time [J]
+  double viscous_time = 0.0;      ///< State::time of the last sample [s]
+  double viscous_power = 0.0;     ///< at the last sample [W]
+  ContactPower contact_power;     ///< at the state's time level; kept while the ledger is closed, too
 };
 
 }  // namespace qdem

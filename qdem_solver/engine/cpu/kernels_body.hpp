@@ -321,14 +321,14 @@ void scale_inertia(const ScaleInertia& job) {
 }  // namespace
 
 const Kernels& QDEM_KERNELS() {
-  static const Kernels table{QDEM_INSTRUCTION_SET,
-                             {lane_forces<Quadruples>, single_forces<Quadruples>, lane_power<QuadruplePower>,
-                              single_power<QuadruplePower>},
-                             {lane_forces<Bonds>, single_forces<Bonds>, lane_power<BondPower>, single_power<BondPower>},
-                             drift,
-                             kick,
-                             gather,
-                             scale_inertia};
+  static const Kernels table{
+      QDEM_INSTRUCTION_SET,
+      {lane_forces<Quadruples>, single_forces<Quadruples>, lane_power<QuadruplePower>, single_power<QuadruplePower>},
+      {lane_forces<Bonds>, single_forces<Bonds>, lane_power<BondPower>, single_power<BondPower>},
+      drift,
+      kick,
+      gather,
+      scale_inertia};
   return table;
 }
 
