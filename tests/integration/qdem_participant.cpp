@@ -135,6 +135,28 @@ TEST(QdemParticipant, RollbackRepeatsTheWindowBitwise) {
   for (const auto& values : first.all()) EXPECT_EQ(values.values, second.get(values.name)) << values.name;
 }
 
+TEST(QdemParticipant, ACheckpointHoldsTheEnergyLedger) {
+  const auto march_to_the_end = [](Driver& driver) {
+    for (int n = 3; n < 6; ++n) driver.march(n), driver.commit(n);
+    return driver.participant_.finish();
+  };
+  Driver whole;
+  whole.relax(20);
+  whole.participant_.start();
+  for (int n = 0; n < 3; ++n) whole.march(n), whole.commit(n);
+  const std::string path = folder() + "/qdem_state.h5";
+  const auto hash = whole.participant_.save({2, path});
+  Driver resumed;
+  resumed.participant_.restore({2, path, hash});
+  resumed.rail_ = whole.rail_;
+  const auto facts = march_to_the_end(whole), again = march_to_the_end(resumed);
+  ASSERT_EQ(facts.size(), again.size());
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    EXPECT_EQ(facts[i].number, again[i].number) << facts[i].key;
+    EXPECT_EQ(facts[i].text, again[i].text) << facts[i].key;
+  }
+}
+
 TEST(QdemParticipant, NamesTheStepOfTheNextWindow) {
   Driver driver;
   driver.relax(20);
