@@ -1,6 +1,7 @@
 #include "qdem_solver/app/commands.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -69,17 +70,26 @@ void run_command(const std::string& case_path, const std::string& out) {
   const auto file = proto::CaseFile::load(case_path);
   check_command(file);
   make_folder(out);
-  const auto figures = run_alone(file, bed_of_case, out, [](double time) {
+  const auto report = [](double time) {
     if (isatty(fileno(stderr)) != 0) fmt::print(stderr, "\rt = {:.6f} s", time);
-  });
+  };
+  const auto warn = [](const std::string& line) { spdlog::warn("{}", line); };
+  const auto figures = run_alone(file, bed_of_case, out, report, warn);
   if (isatty(fileno(stderr)) != 0) fmt::print(stderr, "\n");
+  const EnergyBalance& energy = figures.energy;
   fmt::print("steps                     {} of {:.4g} to {:.4g} s\n", figures.steps, figures.smallest_step,
              figures.largest_step);
   fmt::print("wall time                 {:.2f} s ({:.1f} million element updates a second)\n", figures.wall,
              1e-6 * figures.element_updates_per_s);
   fmt::print("sleeper at the seats      {:.4f} mm along their normal\n", 1e3 * figures.sleeper_displacement);
   fmt::print("pad force on the sleeper  {:.1f} N along the normal\n", figures.pad_force);
-  fmt::print("kinetic energy            {:.3e} J\n", figures.kinetic_energy);
+  fmt::print("kinetic energy            {:.3e} J\n", energy.stored.kinetic);
+  fmt::print(
+      "energy                    {:.4g} J of work; dissipated: elements {:.3g}, contact dashpots {:.3g}, "
+      "friction {:.3g} J\n",
+      energy.work, energy.viscous, energy.contact_dashpots, energy.friction);
+  fmt::print("energy residual           {:.2e} of {:.3g} J that were moved, {:.2e} at most\n", energy.relative(),
+             energy.scale, figures.largest_residual);
   fmt::print("coordination number       {:.2f}\n", figures.coordination_number);
   if (!figures.output.empty()) fmt::print("fields                    {}\n", figures.output);
 }
@@ -99,7 +109,7 @@ void bed_command(const std::string& case_path, const std::string& path) {
                },
                {});
   FieldsFile fields(view_path.string(), bed.model(), bed.state(), bed.attributes(file));
-  fields.write(0.0, bed.state(), bed.engine());
+  fields.write(0.0, bed.state(), bed.engine(), bed.engine().balance(bed.state()));
   fields.close();
   fmt::print("bed    {}\nfields {}\n", path, view_path.string());
   print_facts(bed.facts());

@@ -6,6 +6,7 @@
 
 #include "proto/span.hpp"
 #include "qdem_solver/model/model.hpp"
+#include "qdem_solver/state/energy_ledger.hpp"
 
 namespace qdem {
 
@@ -24,12 +25,15 @@ struct TouchForce {
   double normal = 0.0;         ///< along Touch::normal, never negative [N]
   Eigen::Vector3d tangential;  ///< [N]
   Eigen::Vector3d slip;        ///< u_t [m]
+  ContactPower dissipated;
 };
 
 /// F_n = max(0, k_n delta - c_n v_n);  u_t turned into the tangent plane, then advanced by v_t dt;
 /// F_t = -k_t u_t - c_t v_t, limited to mu F_n with u_t reset so that the spring carries the limit.
-/// c = 2 zeta sqrt(m_eff k), so that bodies that meet in one point part with the restitution that zeta stands for, and
-/// the law's own dashpots beside it. The standard DEM law (Cundall and Strack 1979).
+/// The slider yields by what of v_t does not go into the spring, v_s = v_t - u_t'; it dissipates -F_t . v_s, the
+/// dashpots (k_n delta - F_n) v_n and c_t v_t . u_t'. With the springs' energies these add up to the power of the two
+/// forces. c = 2 zeta sqrt(m_eff k), so that bodies that meet in one point part with the restitution that zeta stands
+/// for, and the law's own dashpots beside it. The standard DEM law (Cundall and Strack 1979).
 class VoigtCoulombLaw {
  public:
   HOUSE_HOST_DEVICE VoigtCoulombLaw(const ContactLaw& law, double friction)
@@ -46,19 +50,26 @@ class VoigtCoulombLaw {
     TouchForce result;
     result.normal = kn_ * touch.overlap - cn * touch.normal_velocity;
     if (!(result.normal > 0)) result.normal = 0;
+    result.dissipated.dashpot = (kn_ * touch.overlap - result.normal) * touch.normal_velocity;
     result.tangential.setZero();
     result.slip.setZero();
     const double kt = kt_ * touch.share;
     if (!(friction_ > 0) || !(kt > 0)) return result;
     const Eigen::Vector3d vt = touch.relative_velocity - n * n.dot(touch.relative_velocity);
     const double ct = (zeta2_ * std::sqrt(touch.effective_mass * kt_) + ct_) * touch.share;
-    result.slip = turned(slip, n) + vt * dt;
+    const Eigen::Vector3d before = turned(slip, n);
+    result.slip = before + vt * dt;
+    Eigen::Vector3d stretch = vt;
     result.tangential = -kt * result.slip - ct * vt;
     const double size = result.tangential.norm(), limit = friction_ * result.normal;
     if (size > limit) {
       result.tangential *= limit / size;
       result.slip = -(result.tangential + ct * vt) / kt;
+      stretch.setZero();
+      if (dt > 0) stretch = (result.slip - before) / dt;
+      result.dissipated.friction = -result.tangential.dot(vt - stretch);
     }
+    result.dissipated.dashpot += ct * vt.dot(stretch);
     return result;
   }
 

@@ -47,7 +47,8 @@ struct ContactStage::Data {
   std::uint64_t list_id = 0;
   std::vector<EntryForce> forces;
   LiveEntries live;
-  std::vector<double> wake;  ///< sum of both sides' travel below which an entry cannot touch [m]
+  std::vector<ContactPower> powers;  ///< of the chunks of `live`
+  std::vector<double> wake;          ///< sum of both sides' travel below which an entry cannot touch [m]
   double last_travel = 0.0;
   std::int64_t last_step = -1;
 
@@ -98,6 +99,7 @@ struct ContactStage::Data {
     forces.resize(contact.keys.size());
     wake.assign(contact.keys.size(), 0.0);
     live.clear(contact.keys.size(), skins.size());
+    powers.resize(live.n_chunks());
     list_id = contact.list_id;
   }
 
@@ -164,7 +166,7 @@ bool ContactStage::update_candidates(State& state, const std::vector<double>& mo
   return true;
 }
 
-void ContactStage::compute(State& state, double dt) {
+ContactPower ContactStage::compute(State& state, double dt) {
   Data& d = *data_;
   ContactState& contact = state.contact;
   d.fit_scratch(contact);
@@ -176,20 +178,26 @@ void ContactStage::compute(State& state, double dt) {
     const auto [first, last] = d.live.chunk(chunk);
     std::int64_t* const live = d.live.begin_chunk(chunk);
     std::int64_t n_live = 0;
+    ContactPower power;
     for (std::int64_t i = first; i < last; ++i) {
       const double travel = d.travel_of(state, contact.keys[i]);
       if (travel < d.wake[i]) continue;
       EntryForce force = d.push(state, i, dt, contact.slip[i]);
       if (force.live) {
         d.forces[i] = force;
+        power.dashpot += force.dissipated.dashpot, power.friction += force.dissipated.friction;
         live[n_live++] = i;
       } else {
         d.wake[i] = travel + force.gap;
       }
     }
     d.live.end_chunk(chunk, n_live);
+    d.powers[chunk] = power;
   }
   d.live.sort_by_body(contact.keys);
+  ContactPower sum;
+  for (const ContactPower& power : d.powers) sum.dashpot += power.dashpot, sum.friction += power.friction;
+  return sum;
 }
 
 void ContactStage::gather(int body, proto::Span<double> force) const {

@@ -55,8 +55,8 @@ class ContactStage {
   bool update_candidates(State& state, const std::vector<double>& moves = {});
 
   /// Forces of all contacts at positions state.x and velocities state.v; advances the slip by dt [s]. Runs with the
-  /// calling program's OpenMP threads.
-  void compute(State& state, double dt);
+  /// calling program's OpenMP threads. Returns what the contacts dissipate.
+  ContactPower compute(State& state, double dt);
 
   /// Adds the contact forces on the nodes of `body` to `force` [N], an array laid out like state.x.
   void gather(int body, proto::Span<double> force) const;

@@ -18,7 +18,8 @@ struct EntryForce {
   std::array<Eigen::Vector3d, 3> force_b;
   double overlap = 0.0;  ///< [m]
   double energy = 0.0;   ///< of its springs [J]
-  double gap = 0.0;      ///< while it does not touch: no force before the features came nearer by this [m]
+  ContactPower dissipated;
+  double gap = 0.0;  ///< while it does not touch: no force before the features came nearer by this [m]
 };
 
 /// Positions and velocities the kernels read.
@@ -75,6 +76,7 @@ inline EntryForce push_node(const ContactLaw& law, const BodySkin& a, int node, 
   }
   result.overlap = overlap;
   result.energy = detail::spring_energy(law, overlap, 1.0, slip);
+  result.dissipated = force.dissipated;
   return result;
 }
 
@@ -125,6 +127,7 @@ inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_
     result.force_b[k] = -wb[k] * normal_force - frame.corner_force(k, force.tangential);
   }
   result.overlap = contact.overlap;
+  result.dissipated = force.dissipated;
   const double r = contact.end.side < 0 ? 0.0 : contact.end.overlap;
   result.energy = 0.5 * law.normal_stiffness *
                   (contact.facing * (contact.overlap * contact.overlap - r * r) +
@@ -132,12 +135,15 @@ inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_
   if (contact.end.side < 0 || inside) return result;
   // Take back what the end carries as a node; no more of it than the law left of the spring's force.
   const double spring = law.normal_stiffness * touch.overlap;
-  const double taken = law.normal_stiffness * contact.facing * r * std::min(1.0, force.normal / spring);
+  const double left = std::min(1.0, force.normal / spring);
+  const double taken = law.normal_stiffness * contact.facing * r * left;
   const Eigen::Vector3d back = -taken * contact.end.normal;
+  Eigen::Vector3d parting = Eigen::Vector3d::Zero();  // relative velocity at the end
   const double u = contact.end.parameter;
   for (int k = 0; k < 2; ++k) {
     const double weight = contact.end.side == 0 ? (k == contact.end.end ? 1.0 : 0.0) : (k == 0 ? 1 - u : u);
     result.force_a[k] += weight * back;
+    parting += weight * a.at(motion.v, ends_a[k]);
   }
   for (int k = 0; k < 3; ++k) {
     double weight = 0.0;
@@ -146,7 +152,10 @@ inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_
       weight = contact.end.side == 1 ? (e == contact.end.end ? 1.0 : 0.0) : (e == 0 ? 1 - u : u);
     }
     result.force_b[k] -= weight * back;
+    parting -= weight * vb[k];
   }
+  const double kept = law.normal_stiffness * contact.facing * r - taken;
+  result.dissipated.dashpot -= kept * contact.end.normal.dot(parting);
   return result;
 }
 
@@ -173,6 +182,7 @@ inline EntryForce push_on_plane(const ContactLaw& law, const BodySkin& a, int no
   result.force_a[0] = force.normal * n + force.tangential;
   result.overlap = overlap;
   result.energy = detail::spring_energy(law, overlap, 1.0, slip);
+  result.dissipated = force.dissipated;
   return result;
 }
 

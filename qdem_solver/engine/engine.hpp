@@ -12,6 +12,7 @@
 
 #include "proto/span.hpp"
 #include "qdem_solver/contact/contact_stage.hpp"
+#include "qdem_solver/engine/energy_balance.hpp"
 #include "qdem_solver/model/model.hpp"
 #include "qdem_solver/state/state.hpp"
 
@@ -20,6 +21,10 @@ namespace qdem {
 struct EngineOptions {
   int threads = 0;                     ///< OpenMP threads; 0: as many as the environment gives
   std::function<void()> on_step = {};  ///< called after every step, e.g. to bump a work counter
+  /// One of so many steps, taken at random, samples the elements' viscous power, which the ledger takes as linear in
+  /// between. Random, because a stone rings at periods of a few steps: samples at equal distances would meet the same
+  /// phase again and again. 1: every step.
+  int steps_per_viscous_sample = 16;
 };
 
 /// Motion of the rail foot at the pad cells over one run of steps: linear from `begin` to `end`, values in order of
@@ -42,7 +47,7 @@ struct Energies {
 /// Integrates a State of a Model. Holds scratch only: everything that has a history lives in the State, so that copying
 /// the State is a snapshot, and a restored State continues with the same bytes.
 ///
-/// The Model must outlive the engine and keep its bodies, materials, contact law, pads and fixities. `gravity`,
+/// The Model must outlive the engine and keep its bodies, materials, contact law, pads, fixities and loads. `gravity`,
 /// `local_damping`, `inertia`, `drag_per_s`, `pad_body_load` and the planes' velocities are read at every step and may
 /// be changed between steps; a change of anything else needs a new engine. Results are bitwise the same for any number
 /// of threads.
@@ -52,7 +57,7 @@ class Engine {
   ~Engine();
 
   /// Builds the contact candidates if they are due and sets state.a from the forces at (state.x, state.v), pads
-  /// unloaded. Call it for a fresh state, and after writing x or v from outside.
+  /// unloaded. Call it for a fresh state, and after writing x or v from outside. Not for a state with an open ledger.
   void prepare(State& state);
 
   /// `n_steps` steps of dt [s] without pads (the rail is lifted).
@@ -64,6 +69,16 @@ class Engine {
   /// velocity before the first step, except while relaxing.
   PadSums advance(State& state, double dt, std::int64_t n_steps, const PadDrive& drive);
 
+  /// Opens the energy ledger at `state`, whose contacts are those of the last step or prepare(): from now on work and
+  /// dissipation are counted in the steps, by trapezoids as the integrator's own. Forces of moving planes, of
+  /// pad_body_load and of artificial damping are not in it.
+  void open_ledger(State& state) const;
+  /// The ledger at `state`, the one of the last step.
+  EnergyBalance balance(const State& state) const;
+  /// What the viscosity of all elements dissipates now [W].
+  double viscous_power(const State& state) const;
+
+  StoredEnergy stored(const State& state) const;  ///< at the last step's contacts
   Energies energies(const State& state) const;
   double kinetic_energy(const State& state) const;  ///< alone, which is cheaper [J]
   /// Largest speed of any particle [m/s].
@@ -84,6 +99,8 @@ class Engine {
   const ContactStage& contacts() const;
 
  private:
+  void book_viscosity(State& state) const;
+
   struct Data;
   std::unique_ptr<Data> data_;
 };

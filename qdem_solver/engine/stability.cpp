@@ -175,14 +175,40 @@ Rates pad_rates(const Model& model) {
   return largest;
 }
 
+std::vector<Rates> load_rates(const Model& model) {
+  std::vector<Rates> result(model.bodies.size());
+  for (const PatchLoad& load : model.loads) {
+    const double sides = load.kind == LoadKind::drop_weight ? 2 : 1;
+    double row = 0.0, most = 0.0;
+    for (const double weight : load.patch.weights) row += std::abs(weight);
+    for (std::size_t i = 0; i < load.patch.nodes.size(); ++i) {
+      const double mass = model.node_mass(load.patch.body, load.patch.nodes[i]);
+      most = std::max(most, row * std::abs(load.patch.weights[i]) / mass);
+    }
+    Rates& body = result[load.patch.body];
+    body = body + Rates{sides * load.stiffness * most, sides * load.damping * most};
+  }
+  return result;
+}
+
 StepBound::StepBound(const Model& model)
-    : elements_(element_rates(model)), pads_(pad_rates(model)), pad_body_(model.pad_body) {}
+    : elements_(element_rates(model)),
+      loads_(load_rates(model)),
+      weights_(std::numeric_limits<double>::infinity()),
+      pads_(pad_rates(model)),
+      pad_body_(model.pad_body) {
+  for (const PatchLoad& load : model.loads) {
+    if (load.kind != LoadKind::drop_weight) continue;
+    weights_ = std::min(weights_, largest_stable_step({2 * load.stiffness / load.mass, 2 * load.damping / load.mass}));
+  }
+}
 
 double StepBound::least_step(const std::vector<ContactRates>& contacts, bool viscous) const {
-  double step = std::numeric_limits<double>::infinity();
+  double step = weights_;
   for (int b = 0; b < static_cast<int>(elements_.size()); ++b) {
     Rates rates = elements_[b];
     if (!viscous) rates.damping = 0.0;
+    rates = rates + loads_[b];
     if (b == pad_body_) rates = rates + pads_;
     step = std::min(step, largest_stable_step(rates + contacts[b].particle));
   }

@@ -16,8 +16,8 @@ namespace qdem {
 double largest_stable_step(const Rates& rates);
 
 /// The largest stable step of one model, found again and again while its contacts change. Contacts between bodies are
-/// shared out (contact_rates.hpp), so that a body's step follows from its own elements, contacts and pads; the least of
-/// all bodies is the system's.
+/// shared out (contact_rates.hpp), so that a body's step follows from its own elements, contacts, pads and loads; the
+/// least of all bodies is the system's.
 class StepBound {
  public:
   /// One Lanczos run per template and material. It holds for as long as the model keeps bodies, materials and pads.
@@ -34,6 +34,8 @@ class StepBound {
   double least_step(const std::vector<ContactRates>& contacts, bool viscous) const;
 
   std::vector<Rates> elements_;  ///< of every body
+  std::vector<Rates> loads_;     ///< of every body
+  double weights_;               ///< the least step of the drop weights by themselves [s]
   Rates pads_;
   int pad_body_;
 };
@@ -47,6 +49,10 @@ std::vector<Rates> element_rates(const Model& model);
 
 /// Bound from single quadruples: omega^2 <= 4/rho (lambda + 2 mu) max sum_k |g_k|^2, scale 1.
 Rates quadruple_rates(const Template& shape, const Material& material);
+
+/// Bound of the springs and buffers of Model::loads, for every body. Those of a drop weight count twice, since the
+/// weight moves, too.
+std::vector<Rates> load_rates(const Model& model);
 
 /// Bound of the pads at full engagement, from the operator's weights and the sleeper's particle masses.
 Rates pad_rates(const Model& model);

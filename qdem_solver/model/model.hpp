@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "proto/pad/pad_law.hpp"
+#include "qdem_solver/model/patch_load.hpp"
 
 namespace qdem {
 
@@ -173,6 +174,7 @@ struct Model {
   int pad_body = -1;          ///< the sleeper
   Bearing lining;             ///< on the bottom of the pad body: the lowest plane of its template
   std::vector<Fixity> fixities;
+  std::vector<PatchLoad> loads;
   double local_damping = 0.0;              ///< Cundall's non-viscous damping, only while relaxing [-]
   double drag_per_s = 0.0;                 ///< mass-proportional drag, only while pouring [1/s]
   Eigen::Vector3d pad_body_load{0, 0, 0};  ///< on the pad body, spread as its mass is [N]

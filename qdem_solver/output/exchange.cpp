@@ -23,6 +23,42 @@ void exchange(proto::StateArchive& archive, const std::string& prefix, ContactSt
   archive(prefix + "list_id", contact.list_id);
 }
 
+void exchange(proto::StateArchive& archive, const std::string& prefix, StoredEnergy& energy) {
+  archive(prefix + "kinetic", energy.kinetic);
+  archive(prefix + "strain", energy.strain);
+  archive(prefix + "contact", energy.contact);
+  archive(prefix + "gravity", energy.gravity);
+}
+
+void exchange(proto::StateArchive& archive, const std::string& prefix, EnergyLedger& ledger) {
+  archive(prefix + "open", ledger.open);
+  exchange(archive, prefix + "start/", ledger.start);
+  archive(prefix + "first_step", ledger.first_step);
+  archive(prefix + "work", ledger.work);
+  archive(prefix + "largest_work", ledger.largest_work);
+  archive(prefix + "contact_dashpots", ledger.contact_dashpots);
+  archive(prefix + "friction", ledger.friction);
+  archive(prefix + "viscous", ledger.viscous);
+  archive(prefix + "viscous_time", ledger.viscous_time);
+  archive(prefix + "viscous_power", ledger.viscous_power);
+  archive(prefix + "dashpot_power", ledger.contact_power.dashpot);
+  archive(prefix + "friction_power", ledger.contact_power.friction);
+}
+
+/// Six values of every load.
+void exchange(proto::StateArchive& archive, const std::string& name, std::vector<LoadState>& loads) {
+  std::vector<double> list;
+  for (const LoadState& load : loads) {
+    list.insert(list.end(), {load.origin, load.path, load.force, load.position, load.velocity, load.acceleration});
+  }
+  archive(name, list);
+  archive.expect_length(name, list.size() % 6, 0);
+  loads.clear();
+  for (std::size_t i = 0; i < list.size(); i += 6) {
+    loads.push_back({list[i], list[i + 1], list[i + 2], list[i + 3], list[i + 4], list[i + 5]});
+  }
+}
+
 }  // namespace
 
 void exchange(proto::StateArchive& archive, const std::string& prefix, State& state) {
@@ -36,6 +72,8 @@ void exchange(proto::StateArchive& archive, const std::string& prefix, State& st
     archive.expect_length(prefix + "x, v, a", values->size(), n);
   archive(prefix + "pad_force", state.pad_force);
   exchange(archive, prefix + "contact/", state.contact);
+  exchange(archive, prefix + "loads", state.loads);
+  exchange(archive, prefix + "ledger/", state.ledger);
 }
 
 }  // namespace qdem

@@ -16,7 +16,8 @@ namespace qdem {
 /// All bodies as one tetrahedral grid. Points are the positions of the state given to the constructor; `displacement`
 /// is measured from them. Point fields: displacement [m], velocity [m/s]. Cell fields: von_mises_stress, mean_stress
 /// (positive in tension; of bonds, element_stress()) [Pa]. Static: body (number), sleeper (1 or 0). Histories with
-/// every step: time [s], kinetic_energy, strain_energy, contact_energy [J], touching (live contacts).
+/// every step: time [s], kinetic_energy, strain_energy, contact_energy, gravity_energy [J], the energy ledger
+/// (EnergyBalance), touching (live contacts).
 class FieldsFile {
  public:
   /// Creates `path`. `model` must outlive the object. Throws proto::Error (cannot_create).
@@ -26,8 +27,8 @@ class FieldsFile {
   static FieldsFile resume(const std::string& path, const Model& model, const State& reference,
                            const proto::Attributes& attributes, std::uint64_t n_steps);
 
-  /// Appends one step. Throws proto::Error (io_error).
-  void write(double time, const State& state, const Engine& engine);
+  /// Appends one step; `balance` is that of `state`. Throws proto::Error (io_error).
+  void write(double time, const State& state, const Engine& engine, const EnergyBalance& balance);
 
   std::uint64_t n_steps() const { return file_.n_steps(); }
   /// What was written is safe against a loss of power.
@@ -37,6 +38,7 @@ class FieldsFile {
 
  private:
   FieldsFile(const Model& model, std::vector<double> reference, proto::FieldSeriesFile file);
+  void put_energies(const EnergyBalance& balance);
   void put_stresses(const State& state);
 
   const Model& model_;

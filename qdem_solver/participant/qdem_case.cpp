@@ -144,11 +144,11 @@ void read_contact(const Section& section, BedPhysics& physics) {
   physics.ground_friction = section.number_or("ground_friction", law.friction, Range::between(0.0, 2.0));
 }
 
-RunAlone read_run(const Section& section) {
+RunAlone read_run(const Section& section, double gravity) {
   RunAlone run;
   run.duration = section.number_or("duration_s", 0.0, Range::not_negative());
   run.output_interval = section.number_or("output_interval_s", 0.0, Range::not_negative());
-  run.load = read_load(section.section("load"));
+  run.loads = read_loads(section, gravity);
   return run;
 }
 
@@ -163,13 +163,15 @@ QdemCase read_qdem_case(const proto::CaseFile& file) {
   result.physics.gravity = {0, 0, -section.number_or("gravity_m_per_s2", 9.81, Range::not_negative())};
   result.initialise_damping =
       section.number_or("initialise_damping", result.initialise_damping, Range::between(0, 0.95));
+  result.steps_per_viscous_sample = static_cast<int>(
+      section.integer_or("steps_per_viscous_sample", result.steps_per_viscous_sample, Range::between(1, 1000)));
   read_materials(section, result.physics);
   read_layers(section, result.physics);
   check_use(file, result.physics);
   read_contact(section.section("contact"), result.physics);
   result.sensors = read_sensors(section);
   result.contact_output = section.boolean_or("contact_output", false);
-  result.run = read_run(section.section("run"));
+  result.run = read_run(section.section("run"), result.physics.gravity.norm());
   section.finish();
   return result;
 }

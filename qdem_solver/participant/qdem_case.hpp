@@ -5,7 +5,7 @@
 
 #include "proto/case/case_file.hpp"
 #include "qdem_solver/bed/bed.hpp"
-#include "qdem_solver/participant/load_history.hpp"
+#include "qdem_solver/participant/load_settings.hpp"
 #include "qdem_solver/sensors/sensor_settings.hpp"
 
 namespace qdem {
@@ -14,15 +14,16 @@ namespace qdem {
 struct RunAlone {
   double duration = 0.0;         ///< [s]
   double output_interval = 0.0;  ///< [s]; 0: only the last state
-  LoadHistory load;              ///< downward force on the pads of all seats together; empty: none
+  std::vector<LoadSettings> loads;
 };
 
 struct QdemCase {
   BedPhysics physics;
-  double step_safety = 0.8;         ///< share of the computed stability bound
-  double largest_step = 0.0;        ///< the user's own limit [s]; 0: none
-  int threads = 0;                  ///< 0: as many as the environment gives
-  double initialise_damping = 0.5;  ///< Cundall's damping in the initialise phase [-]
+  double step_safety = 0.8;           ///< share of the computed stability bound
+  double largest_step = 0.0;          ///< the user's own limit [s]; 0: none
+  int threads = 0;                    ///< 0: as many as the environment gives
+  double initialise_damping = 0.5;    ///< Cundall's damping in the initialise phase [-]
+  int steps_per_viscous_sample = 16;  ///< see EngineOptions
   SensorsSettings sensors;
   bool contact_output = false;  ///< contacts.h5 beside every output of the fields
   RunAlone run;
@@ -30,7 +31,7 @@ struct QdemCase {
 
 /// Reads
 ///   [qdem] particle_interaction ("quadruple", "bond"), step_safety, largest_step_s, threads, gravity_m_per_s2,
-///     initialise_damping, sensor_interval_s, contact_output
+///     initialise_damping, steps_per_viscous_sample, sensor_interval_s, contact_output
 ///   [[qdem.sensor]] (sensors/sensor_settings.hpp)
 ///   [[qdem.material]] name ("stone", "sleeper"; others where [bed] stone_materials or [qdem.subgrade] names them; each
 ///   once), young_pa, poisson, density_kg_per_m3, and one of
@@ -40,7 +41,7 @@ struct QdemCase {
 ///     tangential_ratio, friction, ground_friction, rounding_m
 ///   [qdem.under_sleeper_pad], [qdem.under_ballast_mat], [qdem.subgrade] (layers_case.hpp)
 ///   [qdem.run] duration_s, output_interval_s
-///   [qdem.run.load] (load_history.hpp)
+///   [[qdem.run.load]] (load_settings.hpp)
 /// and refuses every other key. Throws proto::Error (config).
 QdemCase read_qdem_case(const proto::CaseFile& file);
 

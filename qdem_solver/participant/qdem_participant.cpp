@@ -1,6 +1,7 @@
 #include "qdem_solver/participant/qdem_participant.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <utility>
@@ -22,7 +23,11 @@ namespace field = proto::field;
 constexpr double release_time_s = 2e-3;
 
 QdemParticipant::QdemParticipant(proto::CaseFile file, BedSource source, std::string name, std::string out)
-    : file_(std::move(file)), source_(std::move(source)), name_(std::move(name)), out_(std::move(out)) {
+    : file_(std::move(file)),
+      source_(std::move(source)),
+      name_(std::move(name)),
+      out_(std::move(out)),
+      energy_([](const std::string& line) { spdlog::warn("{}", line); }) {
   check_case(file_);
   output_interval_ = proto::read_coupling(file_).output_interval_s;
 }
@@ -112,15 +117,6 @@ std::optional<double> QdemParticipant::residual() {
   return bed_->engine().unbalanced_ratio(bed_->state());
 }
 
-bool QdemParticipant::output_is_due(std::int64_t window) const {
-  if (output_interval_ <= 0) return false;
-  // A step of output belongs to the window whose end reaches the next multiple of the interval.
-  const auto outputs_until = [&](std::int64_t n) {
-    return std::floor(static_cast<double>(n) * window_s_ / output_interval_ * (1 + 1e-12));
-  };
-  return outputs_until(window + 1) > outputs_until(window);
-}
-
 void QdemParticipant::check_sensor_interval() const {
   const SensorsSettings& sensors = bed_->settings().sensors;
   const double windows = sensors.interval / window_s_;
@@ -129,30 +125,14 @@ void QdemParticipant::check_sensor_interval() const {
                              "give a whole multiple of coupling.window_s");
 }
 
-void QdemParticipant::open_files() {
-  const auto attributes = bed_->attributes(file_);
-  if (output_interval_ > 0) {
-    fields_ = std::make_unique<FieldsFile>(out_ + "/qdem.h5", bed_->model(), bed_->state(), attributes);
-    if (bed_->settings().contact_output) contacts_ = std::make_unique<ContactsFile>(out_ + "/contacts.h5", attributes);
-    write_fields(0.0);
-  }
-  const SensorsSettings& sensors = bed_->settings().sensors;
-  if (sensors.list.empty()) return;
-  sensors_ = std::make_unique<SensorFile>(out_ + "/sensors.h5", sensors, bed_->model(), bed_->state(), attributes);
-  sensors_->look(0.0, bed_->state(), bed_->engine().contacts());
-}
-
-void QdemParticipant::write_fields(double time) {
-  fields_->write(time, bed_->state(), bed_->engine());
-  if (contacts_) contacts_->write(time, bed_->state(), bed_->engine().contacts());
+RecordSettings QdemParticipant::record_settings() const {
+  return {out_, output_interval_, bed_->attributes(file_)};
 }
 
 void QdemParticipant::commit(const proto::Commit& request) {
   committed_step_ = bed_->largest_step();
   if (!marching_) return;
-  const double time = static_cast<double>(request.window + 1) * window_s_;
-  if (sensors_) sensors_->look(time, bed_->state(), bed_->engine().contacts());
-  if (fields_ && output_is_due(request.window)) write_fields(time);
+  record_->look(static_cast<double>(request.window + 1) * window_s_);
 }
 
 void QdemParticipant::rollback(const proto::Rollback&) {
@@ -161,20 +141,13 @@ void QdemParticipant::rollback(const proto::Rollback&) {
 
 proto::FieldSet QdemParticipant::start() {
   if (relaxing_) bed_->release(release_time_s, rail_foot_);
-  bed_->reset_clock();
+  bed_->begin_march();
   bed_->find_step(window_s_);
   committed_step_ = bed_->largest_step();
   marching_ = true;
-  start_positions_ = bed_->state().x;
-  open_files();
+  record_ = std::make_unique<BedRecord>(*bed_, energy_, record_settings());
   const std::vector<double> zero(3 * bed_->model().pads.size(), 0.0);
   return values({zero, zero});
-}
-
-State QdemParticipant::start_state() const {
-  State state;
-  state.x = start_positions_;
-  return state;
 }
 
 void QdemParticipant::exchange(proto::StateArchive& archive) {
@@ -183,26 +156,14 @@ void QdemParticipant::exchange(proto::StateArchive& archive) {
   archive("committed_step", committed_step_);
   archive("windows_above_bound", windows_above_bound_);
   archive("rail_foot", rail_foot_);
-  archive("start_positions", start_positions_);
+  energy_.exchange(archive);
 }
 
 std::uint64_t QdemParticipant::save(const proto::Save& request) {
   proto::StateWriter archive;
   exchange(archive);
-  if (fields_) {
-    fields_->synchronise();
-    auto n_steps = fields_->n_steps();
-    archive("fields/steps", n_steps);
-  }
-  if (contacts_) {
-    contacts_->synchronise();
-    auto n_rows = contacts_->n_rows();
-    archive("contacts/rows", n_rows);
-  }
-  if (sensors_) {
-    sensors_->synchronise();
-    sensors_->exchange(archive);
-  }
+  record_->synchronise();
+  record_->exchange(archive);
   return archive.write(request.path);
 }
 
@@ -210,43 +171,26 @@ void QdemParticipant::restore(const proto::Restore& request) {
   proto::StateReader archive(request.path, request.hash);
   exchange(archive);
   marching_ = true;
-  resume_files(archive);
-}
-
-void QdemParticipant::resume_files(proto::StateArchive& saved) {
-  const auto attributes = bed_->attributes(file_);
-  const State start = start_state();
-  fields_.reset(), sensors_.reset();
-  if (output_interval_ > 0) {
-    std::uint64_t n_steps = 0;
-    saved("fields/steps", n_steps);
-    fields_ =
-        std::make_unique<FieldsFile>(FieldsFile::resume(out_ + "/qdem.h5", bed_->model(), start, attributes, n_steps));
-  }
-  if (fields_ && bed_->settings().contact_output) {
-    std::uint64_t n_rows = 0;
-    saved("contacts/rows", n_rows);
-    contacts_ = std::make_unique<ContactsFile>(ContactsFile::resume(out_ + "/contacts.h5", attributes, n_rows));
-  }
-  const SensorsSettings& sensors = bed_->settings().sensors;
-  if (!sensors.list.empty())
-    sensors_ = std::make_unique<SensorFile>(out_ + "/sensors.h5", sensors, bed_->model(), start, attributes, saved);
+  record_ = std::make_unique<BedRecord>(*bed_, energy_, record_settings(), archive);
 }
 
 std::vector<proto::Fact> QdemParticipant::finish() {
   proto::StateWriter end;
   if (marching_) exchange(end);
-  if (fields_) fields_->close();
-  if (sensors_) sensors_->close();
-  if (contacts_) contacts_->close();
-  fields_.reset(), contacts_.reset(), sensors_.reset();
+  if (record_) record_->close();
+  record_.reset();
   const auto contacts = bed_->engine().contacts().report(bed_->state());
-  return {{"qdem.end.state_hash", std::nullopt, fmt::format("{:016x}", end.hash())},
-          {"qdem.end.coordination_number", contacts.coordination_number, {}},
-          {"qdem.end.largest_penetration_m", contacts.largest_penetration, {}},
-          {"qdem.windows_above_bound", static_cast<double>(windows_above_bound_), {}},
-          {"qdem.steps", static_cast<double>(bed_->state().step), {}},
-          {"qdem.candidate_rebuilds", static_cast<double>(bed_->state().contact.rebuilds), {}}};
+  std::vector<proto::Fact> facts{{"qdem.end.state_hash", std::nullopt, fmt::format("{:016x}", end.hash())},
+                                 {"qdem.end.coordination_number", contacts.coordination_number, {}},
+                                 {"qdem.end.largest_penetration_m", contacts.largest_penetration, {}},
+                                 {"qdem.windows_above_bound", static_cast<double>(windows_above_bound_), {}},
+                                 {"qdem.steps", static_cast<double>(bed_->state().step), {}},
+                                 {"qdem.candidate_rebuilds", static_cast<double>(bed_->state().contact.rebuilds), {}}};
+  const bool stepped = !before_window_.x.empty();
+  if (marching_ && stepped) energy_.look(bed_->engine(), bed_->state());
+  const auto energy = energy_.facts();
+  facts.insert(facts.end(), energy.begin(), energy.end());
+  return facts;
 }
 
 }  // namespace qdem

@@ -8,10 +8,8 @@
 
 #include "proto/case/case_file.hpp"
 #include "proto/session/participant.hpp"
-#include "qdem_solver/output/contacts_file.hpp"
-#include "qdem_solver/output/fields_file.hpp"
+#include "qdem_solver/participant/bed_record.hpp"
 #include "qdem_solver/participant/track_bed.hpp"
-#include "qdem_solver/sensors/sensor_file.hpp"
 
 namespace qdem {
 
@@ -46,28 +44,22 @@ class QdemParticipant : public proto::Participant {
   proto::FieldSet values(PadSums sums) const;
   void begin_window(const proto::Advance& request);
   void check_sensor_interval() const;
-  void open_files();
-  void resume_files(proto::StateArchive& saved);
-  /// Everything but the files' own counts.
+  RecordSettings record_settings() const;
+  /// Everything but the record.
   void exchange(proto::StateArchive& archive);
-  State start_state() const;
-  void write_fields(double time);
-  bool output_is_due(std::int64_t window) const;
 
   proto::CaseFile file_;
   BedSource source_;
   std::string name_, out_;
   proto::Progress* progress_ = nullptr;
   std::unique_ptr<TrackBed> bed_;
-  std::unique_ptr<FieldsFile> fields_;
-  std::unique_ptr<ContactsFile> contacts_;
-  std::unique_ptr<SensorFile> sensors_;
+  EnergyWatch energy_;
+  std::unique_ptr<BedRecord> record_;
   State before_window_;
   double window_s_ = 0.0, output_interval_ = 0.0;
   double committed_step_ = 0.0;           ///< largest stable one from the last commit [s]
   std::int64_t windows_above_bound_ = 0;  ///< whose contacts turned out stiffer than foreseen, in spite of the safety
   std::vector<double> rail_foot_;         ///< at the end of the last window
-  std::vector<double> start_positions_;   ///< of all particles at time 0, laid out like State::x
   bool relaxing_ = false, marching_ = false;
 };
 

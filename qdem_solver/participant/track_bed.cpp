@@ -24,13 +24,15 @@ Bed bed_of(const proto::CaseFile& file, const QdemCase& settings, const BedSourc
 
 }  // namespace
 
-TrackBed::TrackBed(const proto::CaseFile& file, const BedSource& source, std::function<void()> on_step)
+TrackBed::TrackBed(const proto::CaseFile& file, const BedSource& source, std::function<void()> on_step, BedRole role)
     : settings_(read_qdem_case(file)),
       seats_(proto::read_rail_seats(file)),
       bed_(bed_of(file, settings_, source)),
       rest_(bed_.state) {
   bed_.model.pads = make_pad_cells(bed_.model, bed_.state, bed_.model.pad_body, seats_);
-  engine_ = std::make_unique<Engine>(bed_.model, EngineOptions{settings_.threads, std::move(on_step)});
+  if (role == BedRole::alone) bed_.model.loads = make_patch_loads(bed_.model, bed_.state, settings_.run.loads);
+  engine_ = std::make_unique<Engine>(
+      bed_.model, EngineOptions{settings_.threads, std::move(on_step), settings_.steps_per_viscous_sample});
   engine_->set_pad_reference(rest_.x);
   engine_->prepare(bed_.state);
   relaxation_.emplace(bed_.model, resting_points, settings_.step_safety);
@@ -72,9 +74,10 @@ void TrackBed::release(double duration, const std::vector<double>& rail_foot) {
   bed_.model.local_damping = 0;
 }
 
-void TrackBed::reset_clock() {
+void TrackBed::begin_march() {
   bed_.state.step = 0, bed_.state.time = 0.0;
   bed_.state.contact.rebuild_time = 0.0;
+  engine_->open_ledger(bed_.state);
 }
 
 std::vector<proto::Fact> TrackBed::facts() const {

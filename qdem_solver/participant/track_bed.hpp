@@ -22,13 +22,17 @@ namespace qdem {
 /// Where the bed comes from: make_bed() in the program, something small in tests.
 using BedSource = std::function<Bed(const proto::CaseFile&, const BedPhysics&)>;
 
+/// Whether the loads of [qdem.run] act on the bed.
+enum class BedRole { coupled, alone };
+
 /// Bed, pads, engine and step bound of one case. Not movable: the engine refers to the model inside.
 class TrackBed {
  public:
   /// Reads `[qdem]` and `[[rail_seat]]`, takes the bed from `source`, lays the pads.
-  /// `on_step` is called after every step. Throws what the source, read_qdem_case(), make_pad_cells() throw, and
-  /// proto::Error (config) for a largest_step_s above the stability bound.
-  TrackBed(const proto::CaseFile& file, const BedSource& source, std::function<void()> on_step);
+  /// `on_step` is called after every step. Throws what the source, read_qdem_case(), make_pad_cells() and
+  /// make_patch_loads() throw, and proto::Error (config) for a largest_step_s above the stability bound.
+  TrackBed(const proto::CaseFile& file, const BedSource& source, std::function<void()> on_step,
+           BedRole role = BedRole::coupled);
   TrackBed(const TrackBed&) = delete;
   TrackBed& operator=(const TrackBed&) = delete;
 
@@ -51,8 +55,8 @@ class TrackBed {
   void fit_inertia() { relaxation_->fit(*engine_, bed_.state); }
   /// Ends it: `duration` [s] more with the damping but at true masses, the rail foot held at `rail_foot`; then without.
   void release(double duration, const std::vector<double>& rail_foot);
-  /// Sets step and time to 0; motion and contact history stay.
-  void reset_clock();
+  /// Sets step and time to 0 and opens the energy ledger; motion and contact history stay.
+  void begin_march();
 
   /// Displacement from the bed's rest, and velocity, of the sleeper at the pad cells.
   std::vector<double> pad_displacement() const { return engine_->pad_displacement(bed_.state, rest_.x); }

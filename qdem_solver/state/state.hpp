@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "qdem_solver/model/model.hpp"
+#include "qdem_solver/state/energy_ledger.hpp"
 
 namespace qdem {
 
@@ -39,6 +40,15 @@ struct ContactState {
   std::uint64_t list_id = 0;                  ///< hash of keys and triangles: tells the stage whether its scratch fits
 };
 
+/// One of Model::loads.
+struct LoadState {
+  double origin = 0.0;  ///< the patch's coordinate along the load's direction at the start [m]
+  double path = 0.0;    ///< how far it went from there [m]
+  double force = 0.0;   ///< on the patch along the direction, part of `a` [N]
+  /// Of a falling weight along the direction, from where it first touches the patch [m], [m/s], [m/s2].
+  double position = 0.0, velocity = 0.0, acceleration = 0.0;
+};
+
 /// Kinematic state at one time level. Arrays are laid out as model.hpp says.
 struct State {
   std::int64_t step = 0;              ///< steps taken; time is counted by whoever sets the step length
@@ -46,6 +56,8 @@ struct State {
   std::vector<double> x, v, a;        ///< position [m], velocity [m/s], acceleration [m/s2]
   ContactState contact;
   std::vector<double> pad_force;      ///< on the sleeper per cell and seat axis, part of `a` [N]
+  std::vector<LoadState> loads;       ///< of Model::loads; the engine sets them up
+  EnergyLedger ledger;
 
   Eigen::Vector3d position(const Model& model, int body, int node) const { return gather(model, x, body, node); }
   Eigen::Vector3d velocity(const Model& model, int body, int node) const { return gather(model, v, body, node); }

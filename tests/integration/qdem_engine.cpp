@@ -64,6 +64,9 @@ void expect_same_bytes(const qdem::State& p, const qdem::State& q) {
   EXPECT_TRUE(same_bytes(p.a, q.a));
   EXPECT_TRUE(p.contact.keys == q.contact.keys);
   EXPECT_TRUE(p.contact.slip == q.contact.slip);
+  EXPECT_EQ(p.ledger.contact_dashpots, q.ledger.contact_dashpots);
+  EXPECT_EQ(p.ledger.friction, q.ledger.friction);
+  EXPECT_EQ(p.ledger.viscous, q.ledger.viscous);
 }
 
 constexpr double step = 2e-5;
@@ -75,10 +78,14 @@ namespace {
 void expect_threads_change_no_bit(const qdem::Model& model) {
   qdem::State one = heap_state(model), two = one, three = one;
   qdem::Engine engine_one(model, {1}), engine_two(model, {2}), engine_three(model, {3});
-  engine_one.prepare(one), engine_one.advance(one, step, 3000);
-  engine_two.prepare(two), engine_two.advance(two, step, 3000);
-  engine_three.prepare(three), engine_three.advance(three, step, 3000);
+  const auto run = [](qdem::Engine& engine, qdem::State& state) {
+    engine.prepare(state);
+    engine.open_ledger(state);
+    engine.advance(state, step, 3000);
+  };
+  run(engine_one, one), run(engine_two, two), run(engine_three, three);
   EXPECT_GT(engine_one.contacts().report(one).live, 4);
+  EXPECT_GT(one.ledger.friction, 0);
   expect_same_bytes(one, two);
   expect_same_bytes(one, three);
 }
@@ -98,6 +105,7 @@ TEST(Engine, RestoredSnapshotContinuesWithTheSameBytes) {
   qdem::State state = heap_state(model);
   qdem::Engine engine(model, {2});
   engine.prepare(state);
+  engine.open_ledger(state);
   engine.advance(state, step, 1800);
   const qdem::State snapshot = state;
   engine.advance(state, step, 1000);

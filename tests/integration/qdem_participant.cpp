@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -134,6 +135,28 @@ TEST(QdemParticipant, RollbackRepeatsTheWindowBitwise) {
   for (const auto& values : first.all()) EXPECT_EQ(values.values, second.get(values.name)) << values.name;
 }
 
+TEST(QdemParticipant, ACheckpointHoldsTheEnergyLedger) {
+  const auto march_to_the_end = [](Driver& driver) {
+    for (int n = 3; n < 6; ++n) driver.march(n), driver.commit(n);
+    return driver.participant_.finish();
+  };
+  Driver whole;
+  whole.relax(20);
+  whole.participant_.start();
+  for (int n = 0; n < 3; ++n) whole.march(n), whole.commit(n);
+  const std::string path = folder() + "/qdem_state.h5";
+  const auto hash = whole.participant_.save({2, path});
+  Driver resumed;
+  resumed.participant_.restore({2, path, hash});
+  resumed.rail_ = whole.rail_;
+  const auto facts = march_to_the_end(whole), again = march_to_the_end(resumed);
+  ASSERT_EQ(facts.size(), again.size());
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    EXPECT_EQ(facts[i].number, again[i].number) << facts[i].key;
+    EXPECT_EQ(facts[i].text, again[i].text) << facts[i].key;
+  }
+}
+
 TEST(QdemParticipant, NamesTheStepOfTheNextWindow) {
   Driver driver;
   driver.relax(20);
@@ -176,7 +199,13 @@ TEST(QdemParticipant, WritesFieldsAtTheInterval) {
   driver.relax(20);
   driver.participant_.start();
   for (int n = 0; n < 6; ++n) driver.march(n), driver.commit(n);
-  driver.participant_.finish();
+  const auto facts = driver.participant_.finish();
+  const auto residual = std::find_if(facts.begin(), facts.end(), [](const proto::Fact& fact) {
+    return fact.key == "qdem.energy.largest_residual_relative";
+  });
+  ASSERT_NE(residual, facts.end());
+  EXPECT_GT(residual->number.value(), 0.0);
+  EXPECT_LT(residual->number.value(), 0.01);
   const proto::ResultReader reader(folder() + "/qdem.h5");
   EXPECT_EQ(reader.n_steps(), 4u);  // t = 0, 2e-4, 4e-4, 6e-4
   EXPECT_EQ(reader.n_committed("/TimeSeries"), 4u);
@@ -187,16 +216,121 @@ TEST(QdemParticipant, WritesFieldsAtTheInterval) {
   EXPECT_TRUE(std::filesystem::exists(folder() + "/qdem.xdmf"));
 }
 
+namespace {
+
+qdem::RunFigures run_alone(const std::string& keys, std::vector<std::string>* warnings = nullptr) {
+  const auto file = proto::CaseFile::load(tests::small_bed_case(folder(), "threads = 1\n" + keys));
+  const auto warn = [&](const std::string& line) {
+    if (warnings != nullptr) warnings->push_back(line);
+  };
+  const auto figures = qdem::run_alone(file, tests::small_bed, folder(), {}, warn);
+  std::printf("residual %.2e, at most %.2e, of %.3g J; work %.4g, viscous %.3g, dashpots %.3g, friction %.3g J\n",
+              figures.energy.relative(), figures.largest_residual, figures.energy.scale, figures.energy.work,
+              figures.energy.viscous, figures.energy.contact_dashpots, figures.energy.friction);
+  return figures;
+}
+
+}  // namespace
+
 TEST(QdemAlone, CarriesTheLoadItIsGiven) {
-  const auto file = proto::CaseFile::load(tests::small_bed_case(folder(), R"(threads = 1
-[qdem.run]
+  const auto figures = run_alone(R"([qdem.run]
 duration_s = 0.06
-[qdem.run.load]
+[[qdem.run.load]]
 kind = "table"
 time_s = [0.0, 0.02]
-force_n = [0.0, 1500.0]
-)"));
-  const auto figures = qdem::run_alone(file, tests::small_bed, folder(), {});
+force_n = [0.0, 1000.0]
+[[qdem.run.load]]
+kind = "table"
+time_s = [0.0, 0.02]
+force_n = [0.0, 500.0]
+)");
   EXPECT_TRUE(near_rel(figures.pad_force, -1500, 0.02));
   EXPECT_LT(figures.sleeper_displacement, -1e-6);
+  EXPECT_LT(figures.largest_residual, 0.01);
+}
+
+TEST(QdemAlone, TheRailFootGoesWhereItIsSent) {
+  const auto figures = run_alone(R"([qdem.run]
+duration_s = 0.06
+[[qdem.run.load]]
+kind = "displacement_table"
+time_s = [0.0, 0.02]
+displacement_m = [0.0, 3e-4]
+)");
+  // The pad is between foot and sleeper.
+  EXPECT_TRUE(near_rel(figures.pad_force, 2e7 * (-3e-4 - figures.sleeper_displacement), 0.02));
+  EXPECT_LT(figures.pad_force, -100.0);
+  EXPECT_LT(figures.largest_residual, 0.01);
+}
+
+TEST(QdemAlone, AWeightFallsOnThePads) {
+  std::vector<std::string> warnings;
+  const auto figures = run_alone(R"([qdem.run]
+duration_s = 0.02
+output_interval_s = 1e-3
+[[qdem.run.load]]
+kind = "drop_weight"
+mass_kg = 10.0
+drop_height_m = 0.002
+stiffness_n_per_m = 1e6
+)",
+                                 &warnings);
+  EXPECT_EQ(figures.pad_force, 0.0);
+  EXPECT_GT(figures.energy.work, 0.0);
+  EXPECT_LT(figures.largest_residual, 0.01);
+  EXPECT_TRUE(warnings.empty());
+  const proto::ResultReader reader(folder() + "/qdem.h5");
+  const auto work = reader.read("/TimeSeries/work_of_loads").values;
+  const auto residual = reader.read("/TimeSeries/energy_residual_relative").values;
+  ASSERT_EQ(work.size(), 21u);
+  EXPECT_EQ(work.front(), 0.0);
+  EXPECT_TRUE(near_rel(work.back(), figures.energy.work, 1e-12));
+  EXPECT_TRUE(near_rel(residual.back(), figures.energy.relative(), 1e-12));
+}
+
+TEST(QdemAlone, RefusesALoadOnABodyThatIsNotThere) {
+  try {
+    run_alone(R"([qdem.run]
+duration_s = 0.02
+[[qdem.run.load]]
+on = "patch"
+body = "stone_4"
+centre_m = [0, 0, 0]
+radius_m = 1.0
+kind = "half_sine"
+peak_n = 1.0
+duration_s = 1.0
+)");
+    FAIL() << "accepted";
+  } catch (const proto::Error& error) {
+    EXPECT_EQ(error.code(), proto::ExitCode::bad_data);
+    EXPECT_NE(std::string(error.what()).find("did you mean 'stone 4'"), std::string::npos) << error.what();
+  }
+}
+
+TEST(QdemAlone, StopsWhenEnergyComesFromNowhere) {
+  // A weight that drives the sleeper right through the stones: where surfaces have passed each other the contact forces
+  // are not those of any energy.
+  std::vector<std::string> warnings;
+  try {
+    run_alone(R"([qdem.run]
+duration_s = 0.05
+output_interval_s = 1e-4
+[[qdem.run.load]]
+kind = "drop_weight"
+mass_kg = 1e4
+impact_velocity_m_per_s = 3.0
+stiffness_n_per_m = 1e7
+)",
+              &warnings);
+    FAIL() << "it ran to its end";
+  } catch (const proto::Error& error) {
+    std::printf("%s\n", error.what());
+    EXPECT_EQ(error.code(), proto::ExitCode::numerics);
+    const std::string text = error.what();
+    EXPECT_NE(text.find("energy ledger does not close"), std::string::npos);
+    EXPECT_NE(text.find("step "), std::string::npos);
+    EXPECT_NE(text.find("t = "), std::string::npos);
+  }
+  EXPECT_LE(warnings.size(), 1u);
 }

@@ -86,7 +86,12 @@ TEST(QdemCase, RefusesAContactGivenTwiceOrByHalf) {
 }
 
 TEST(QdemCase, ReadsLoadHistories) {
-  const auto load = [](const std::string& keys) { return read("[qdem.run.load]\n" + keys).run.load; };
+  const auto load = [](const std::string& keys) {
+    const auto loads = read("[[qdem.run.load]]\n" + keys).run.loads;
+    EXPECT_EQ(loads.size(), 1u);
+    EXPECT_EQ(loads[0].target, qdem::LoadTarget::pads);
+    return loads[0].load.history;
+  };
   const auto table = load("kind = \"table\"\ntime_s = [1.0, 3.0]\nforce_n = [10.0, 30.0]\n");
   EXPECT_EQ(table(0.0), 10.0);
   EXPECT_TRUE(tests::near_rel(table(1.5), 15.0, 1e-14));
@@ -101,7 +106,59 @@ TEST(QdemCase, ReadsLoadHistories) {
   EXPECT_TRUE(tests::near_rel(cyclic(0.1 + 0.025), 70.0, 1e-12));
   EXPECT_TRUE(tests::near_rel(cyclic(0.1 + 0.175), 30.0, 1e-12));
   EXPECT_TRUE(tests::near_rel(cyclic(5.0), 50.0, 1e-12));
-  EXPECT_FALSE(read("").run.load);
+  EXPECT_TRUE(read("").run.loads.empty());
+}
+
+TEST(QdemCase, ReadsSeveralLoadsOfEveryKind) {
+  const auto loads = read(R"(
+[[qdem.run.load]]
+kind = "displacement_sine"
+mean_m = 1e-3
+amplitude_m = 1e-4
+frequency_hz = 5.0
+cycles = 3
+[[qdem.run.load]]
+on = "patch"
+body = "stone_7"
+centre_m = [0.1, 0.2, 0.3]
+radius_m = 0.05
+direction = [0, 1, 0]
+kind = "displacement_table"
+time_s = [0, 1]
+displacement_m = [0, 2e-3]
+stiffness_n_per_m = 1e8
+[[qdem.run.load]]
+kind = "drop_weight"
+mass_kg = 50.0
+drop_height_m = 0.2
+stiffness_n_per_m = 1e7
+damping_ns_per_m = 100.0
+start_s = 0.01
+[[qdem.run.load]]
+on = "patch"
+centre_m = [0, 0, 0]
+half_lengths_m = [0.1, 0.2, 0.3]
+kind = "drop_weight"
+mass_kg = 50.0
+impact_velocity_m_per_s = 0.7
+stiffness_n_per_m = 1e7
+)")
+                         .run.loads;
+  ASSERT_EQ(loads.size(), 4u);
+  EXPECT_EQ(loads[0].load.kind, qdem::LoadKind::displacement);
+  EXPECT_TRUE(tests::near_rel(loads[0].load.history(0.05), 1.1e-3, 1e-12));
+  EXPECT_EQ(loads[1].target, qdem::LoadTarget::patch);
+  EXPECT_EQ(loads[1].body, "stone_7");
+  EXPECT_EQ(loads[1].region.radius, 0.05);
+  EXPECT_EQ(loads[1].direction, Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(loads[1].load.stiffness, 1e8);
+  EXPECT_EQ(loads[1].load.history(0.5), 1e-3);
+  EXPECT_EQ(loads[2].target, qdem::LoadTarget::pads);
+  EXPECT_TRUE(tests::near_rel(loads[2].load.speed, std::sqrt(2 * 9.81 * 0.2), 1e-12));
+  EXPECT_EQ(loads[2].load.start, 0.01);
+  EXPECT_EQ(loads[3].body, "sleeper");
+  EXPECT_EQ(loads[3].load.speed, 0.7);
+  EXPECT_EQ(loads[3].region.half_lengths[1], 0.2);
 }
 
 TEST(QdemCase, ReadsHowParticlesInteract) {
@@ -192,8 +249,19 @@ TEST(QdemCase, RefusesWhatItCannotUse) {
   const std::string own = "young_pa = 1e9\npoisson = 0.2\ndensity_kg_per_m3 = 1\n";
   expect_refused("[[qdem.material]]\nname = \"stoen\"\n" + own, "did you mean 'stone'");
   expect_refused("[[qdem.material]]\nname = \"granite\"\n" + own, "nothing is made of the material 'granite'");
-  expect_refused("[qdem.run.load]\nkind = \"table\"\ntime_s = [0, 1]\nforce_n = [5]\n", "1 forces for 2 times");
-  expect_refused("[qdem.run.load]\nkind = \"table\"\ntime_s = [1, 1]\nforce_n = [5, 6]\n", "do not ascend");
-  expect_refused("[qdem.run.load]\nkind = \"half_sin\"\n", "half_sine");
-  expect_refused("[qdem.run.load]\nkind = \"half_sine\"\npeak_n = 5.0\n", "duration_s");
+  expect_refused("[[qdem.run.load]]\nkind = \"table\"\ntime_s = [0, 1]\nforce_n = [5]\n", "1 values for 2 times");
+  expect_refused("[[qdem.run.load]]\nkind = \"table\"\ntime_s = [1, 1]\nforce_n = [5, 6]\n", "do not ascend");
+  expect_refused("[[qdem.run.load]]\nkind = \"half_sin\"\n", "half_sine");
+  expect_refused("[[qdem.run.load]]\nkind = \"half_sine\"\npeak_n = 5.0\n", "duration_s");
+  const std::string patch = "[[qdem.run.load]]\non = \"patch\"\ncentre_m = [0, 0, 0]\n";
+  const std::string weight = "kind = \"drop_weight\"\nmass_kg = 1.0\nstiffness_n_per_m = 1e6\n";
+  const std::string foot = "[[qdem.run.load]]\nkind = \"displacement_table\"\ntime_s = [0]\ndisplacement_m = [0]\n";
+  expect_refused(patch + weight + "drop_height_m = 1.0\n", "radius_m or half_lengths_m");
+  expect_refused(patch + "radius_m = 1.0\n" + weight, "impact is missing");
+  expect_refused(patch + "radius_m = 1.0\ndrop_height_m = 1.0\nimpact_velocity_m_per_s = 1.0\n" + weight, "twice");
+  expect_refused(patch + "radius_m = 1.0\ndirection = [0, 0, 0]\n" + weight, "no length");
+  expect_refused(patch + "radius_m = 1.0\nkind = \"displacement_table\"\ntime_s = [0]\ndisplacement_m = [0]\n",
+                 "stiffness_n_per_m");
+  expect_refused(foot + foot, "another load");
+  expect_refused("[qdem.run.load]\nkind = \"half_sine\"\npeak_n = 5.0\nduration_s = 1.0\n", "load");
 }

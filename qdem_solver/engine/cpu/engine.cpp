@@ -36,7 +36,8 @@ Engine::Data::Data(const Model& the_model, EngineOptions the_options)
       slots(tasks.n_slot_values),
       records(n_threads, cpu::AlignedValues(8 * tasks.largest_block)),
       contact(model),
-      pads(model) {}
+      pads(model),
+      loads(model) {}
 
 Engine::Engine(const Model& model, EngineOptions options) : data_(std::make_unique<Data>(model, std::move(options))) {}
 Engine::~Engine() = default;
@@ -130,7 +131,7 @@ void Engine::Data::run(State& state, const Task& task, double dt, Span<const dou
     if (!relaxing()) kick(state, batch, task.first, task.last, dt);
     return;
   }
-  run_outer(task, pad_force);
+  run_outer(state, task, pad_force);
   if (task.kind == TaskKind::outer) return;
   const Template& shape = model.templates[batch.template_id];
   const Material& solid = model.materials[batch.material_id];
@@ -142,27 +143,35 @@ void Engine::Data::run(State& state, const Task& task, double dt, Span<const dou
 }
 
 void Engine::Data::run_blocks(const State& state, const Task& task) {
-  const Batch& batch = model.batches[task.batch];
-  const Material& solid = model.materials[batch.material_id];
-  const cpu::ElementBlocks& all = *tasks.blocks[task.batch];
-  const auto& law = cpu::kernels_of(kernels, solid.interaction);
-  double* of_body = &slots[tasks.slot_offsets[task.batch]];
-  for (int b = task.first; b < task.last; ++b) {
-    const auto& block = all.blocks[b];
-    law.block_forces({cpu::material_of(solid), batch.scale[0], block.n_groups, block.n_copies, all.corners_of(block),
-                      all.numbers_of(block), &all.copies[block.first_copy], &state.x[batch.offset],
-                      &state.v[batch.offset], records[omp_get_thread_num()].data(),
-                      of_body + std::int64_t{4} * block.first_copy});
-  }
+  const auto& law = cpu::kernels_of(kernels, model.materials[model.batches[task.batch].material_id].interaction);
+  for (int b = task.first; b < task.last; ++b) law.block_forces(block_job(state, task, b));
 }
 
-void Engine::Data::run_outer(const Task& task, Span<const double> pad_force) {
+cpu::BlockForces Engine::Data::block_job(const State& state, const Task& task, int b) {
+  const Batch& batch = model.batches[task.batch];
+  const cpu::ElementBlocks& all = *tasks.blocks[task.batch];
+  const auto& block = all.blocks[b];
+  return {cpu::material_of(model.materials[batch.material_id]),
+          batch.scale[0],
+          block.n_groups,
+          block.n_copies,
+          all.corners_of(block),
+          all.numbers_of(block),
+          &all.copies[block.first_copy],
+          &state.x[batch.offset],
+          &state.v[batch.offset],
+          records[omp_get_thread_num()].data(),
+          &slots[tasks.slot_offsets[task.batch] + std::int64_t{4} * block.first_copy]};
+}
+
+void Engine::Data::run_outer(const State& state, const Task& task, Span<const double> pad_force) {
   const Batch& batch = model.batches[task.batch];
   double* out = &force[batch.offset];
   std::fill(out, out + std::int64_t{3} * model.templates[batch.template_id].n_nodes() * batch.lanes, 0.0);
   for (int lane = 0; lane < batch.lanes; ++lane) {
     if (batch.bodies[lane] < 0) continue;
     contact.gather(batch.bodies[lane], force);
+    loads.add(batch.bodies[lane], state, force);
     if (batch.bodies[lane] != model.pad_body) continue;
     pads.add_transposed(pad_force, force);
     if (!model.pad_body_load.isZero()) add_load(batch);
@@ -173,7 +182,8 @@ void Engine::Data::begin_step(State& state, double dt, double time) {
   state.time = time;
   drift(state, dt);
   contact.update_candidates(state, moves);
-  contact.compute(state, dt);
+  book_contacts(state.ledger, contact.compute(state, dt), dt);
+  book_work(state.ledger, loads.update(state, dt));
 }
 
 void Engine::Data::end_step(State& state, double dt, Span<const double> pad_force) {
@@ -217,12 +227,17 @@ std::vector<double> Engine::Data::pad_values(const std::vector<double>& field) c
   return values;
 }
 
-std::vector<double> Engine::Data::pad_forces(const State& state, const std::vector<double>& u,
-                                             const std::vector<double>& rate) const {
-  std::vector<double> x = pad_values(state.x), x_rate = pad_values(state.v), result(pads.n_values());
+std::vector<double> Engine::Data::pad_displacement(const State& state) const {
+  std::vector<double> x = pad_values(state.x);
   const std::vector<double> reference = pad_values(pad_reference);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] -= reference[i];
-  pads.forces(u, rate, x, x_rate, result);
+  return x;
+}
+
+std::vector<double> Engine::Data::pad_forces(const State& state, const std::vector<double>& u,
+                                             const std::vector<double>& rate, const std::vector<double>& x) const {
+  std::vector<double> result(pads.n_values());
+  pads.forces(u, rate, x, pad_values(state.v), result);
   return result;
 }
 
@@ -242,7 +257,8 @@ void Engine::Data::add_pad_change(State& state, Span<const double> new_force) {
 void Engine::prepare(State& state) {
   omp_set_num_threads(data_->n_threads);
   data_->contact.update_candidates(state);
-  data_->contact.compute(state, 0.0);
+  state.ledger.contact_power = data_->contact.compute(state, 0.0);
+  data_->loads.update(state, 0.0);
   state.pad_force.assign(data_->pads.n_values(), 0.0);
   data_->end_step(state, 0.0, state.pad_force);
 }
@@ -257,6 +273,7 @@ void Engine::advance(State& state, double dt, std::int64_t n_steps) {
     d.begin_step(state, dt, start + static_cast<double>(j) * dt);
     d.end_step(state, dt, unloaded);
     ++state.step;
+    book_viscosity(state);
     if (d.options.on_step) d.options.on_step();
   }
 }
@@ -268,21 +285,27 @@ PadSums Engine::advance(State& state, double dt, std::int64_t n_steps, const Pad
   PadSums sums{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
   std::vector<double> rate(n), u(drive.begin.begin(), drive.begin.end()), next_u(n);
   for (std::size_t i = 0; i < n; ++i) rate[i] = (drive.end[i] - drive.begin[i]) / (dt * static_cast<double>(n_steps));
-  if (!d.relaxing()) d.add_pad_change(state, d.pad_forces(state, u, rate));
+  std::vector<double> x = d.pad_displacement(state);
+  if (!d.relaxing()) d.add_pad_change(state, d.pad_forces(state, u, rate, x));
   const double start = state.time;
   for (std::int64_t j = 1; j <= n_steps; ++j) {
     d.begin_step(state, dt, start + static_cast<double>(j) * dt);
     const double share = static_cast<double>(j) / static_cast<double>(n_steps);
     for (std::size_t i = 0; i < n; ++i) next_u[i] = drive.begin[i] + share * (drive.end[i] - drive.begin[i]);
-    const std::vector<double> next_force = d.pad_forces(state, next_u, rate);
+    const std::vector<double> next_x = d.pad_displacement(state);
+    const std::vector<double> next_force = d.pad_forces(state, next_u, rate, next_x);
     d.end_step(state, dt, next_force);
+    double work = 0.0;  // on the sleeper
     for (std::size_t i = 0; i < n; ++i) {
       const double mean = 0.5 * (state.pad_force[i] + next_force[i]);
       sums.impulse[i] += dt * mean;
       sums.work[i] += mean * (next_u[i] - u[i]);
+      work += mean * (next_x[i] - x[i]);
     }
-    state.pad_force = next_force, u = next_u;
+    Data::book_work(state.ledger, work);
+    state.pad_force = next_force, u = next_u, x = next_x;
     ++state.step;
+    book_viscosity(state);
     if (d.options.on_step) d.options.on_step();
   }
   return sums;

@@ -7,13 +7,14 @@
 #include "qdem_solver/engine/cpu/tasks.hpp"
 #include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/engine/pads.hpp"
+#include "qdem_solver/engine/patch_loads.hpp"
 
 namespace qdem {
 
 struct Engine::Data {
   Data(const Model& the_model, EngineOptions the_options);
 
-  /// Positions, predicted velocities and contact forces at `time`; returns with state.v = v_pred.
+  /// Positions, predicted velocities, contact forces and loads at `time`; returns with state.v = v_pred.
   void begin_step(State& state, double dt, double time);
   /// All other forces and the second half of the kick.
   void end_step(State& state, double dt, proto::Span<const double> pad_force);
@@ -21,7 +22,9 @@ struct Engine::Data {
   void drift(State& state, double dt);
   void run(State& state, const cpu::Task& task, double dt, proto::Span<const double> pad_force);
   void run_blocks(const State& state, const cpu::Task& task);
-  void run_outer(const cpu::Task& task, proto::Span<const double> pad_force);
+  /// What a kernel needs of block `b` of the body of `task`.
+  cpu::BlockForces block_job(const State& state, const cpu::Task& task, int b);
+  void run_outer(const State& state, const cpu::Task& task, proto::Span<const double> pad_force);
   void kick(State& state, const Batch& batch, int first, int last, double dt);
   bool relaxing() const { return !model.inertia.empty(); }
   void scale_inertia(const State& state, const Batch& batch, double dt);
@@ -30,8 +33,14 @@ struct Engine::Data {
   /// Exchanges the pad forces that state.a holds for others at the same time level.
   void add_pad_change(State& state, proto::Span<const double> new_force);
   std::vector<double> pad_values(const std::vector<double>& field) const;
-  std::vector<double> pad_forces(const State& state, const std::vector<double>& u,
-                                 const std::vector<double>& rate) const;
+  /// Displacement of the sleeper at the pad cells from pad_reference.
+  std::vector<double> pad_displacement(const State& state) const;
+  /// For rail motion u, u' and sleeper displacement x.
+  std::vector<double> pad_forces(const State& state, const std::vector<double>& u, const std::vector<double>& rate,
+                                 const std::vector<double>& x) const;
+  double viscous_power(const State& state, const cpu::Task& task);
+  static void book_contacts(EnergyLedger& ledger, const ContactPower& power, double dt);
+  static void book_work(EnergyLedger& ledger, double work);
   [[noreturn]] void report_blow_up(const State& state) const;
 
   const Model& model;
@@ -47,6 +56,7 @@ struct Engine::Data {
   std::vector<cpu::AlignedValues> records;  ///< of each thread: particles of one block
   ContactStage contact;
   PadOperator pads;
+  PatchLoads loads;
   std::vector<double> pad_reference;
 };
 

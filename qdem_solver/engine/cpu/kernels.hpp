@@ -6,8 +6,8 @@
 
 #include <cstdint>
 
-#include "qdem_solver/physics/bond_force.hpp"
-#include "qdem_solver/physics/quadruple_force.hpp"
+#include "qdem_solver/physics/bond_dissipation.hpp"
+#include "qdem_solver/physics/quadruple_dissipation.hpp"
 
 namespace qdem::cpu {
 
@@ -115,6 +115,8 @@ struct Gather {
 struct ElementKernels {
   void (*lane_forces)(const LaneForces&);
   void (*block_forces)(const BlockForces&);
+  void (*lane_power)(const LaneForces&, double* sums);  ///< dissipated by each of the eight bodies [W]; force unused
+  double (*block_power)(const BlockForces&);            ///< by the elements of the block [W]; slots unused
 };
 
 struct Kernels {

@@ -140,6 +140,8 @@ __attribute__((flatten)) void block_forces(const BlockForces& job) {
       });
 }
 
+#include "qdem_solver/engine/cpu/dissipation_body.hpp"
+
 DriftResult drift(const Drift& job) {
   DriftResult result{};
   for (int lane = 0; lane < lanes; lane += width) {
@@ -332,13 +334,14 @@ void scale_inertia(const ScaleInertia& job) {
 }  // namespace
 
 const Kernels& QDEM_KERNELS() {
-  static const Kernels table{QDEM_INSTRUCTION_SET,
-                             {lane_forces<Quadruples>, block_forces<Quadruples>},
-                             {lane_forces<Bonds>, block_forces<Bonds>},
-                             drift,
-                             kick,
-                             gather,
-                             scale_inertia};
+  static const Kernels table{
+      QDEM_INSTRUCTION_SET,
+      {lane_forces<Quadruples>, block_forces<Quadruples>, lane_power<QuadruplePower>, block_power<QuadruplePower>},
+      {lane_forces<Bonds>, block_forces<Bonds>, lane_power<BondPower>, block_power<BondPower>},
+      drift,
+      kick,
+      gather,
+      scale_inertia};
   return table;
 }
 
