@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "proto/error.hpp"
@@ -11,6 +12,7 @@
 #include "qdem_solver/contact/contact_rates.hpp"
 #include "qdem_solver/contact/entry_force.hpp"
 #include "qdem_solver/contact/live_entries.hpp"
+#include "qdem_solver/contact/sphere_contacts.hpp"
 
 namespace qdem {
 namespace {
@@ -21,15 +23,16 @@ std::uint64_t list_hash(const ContactState& contact) {
   return hash == 0 ? 1 : hash;
 }
 
-/// Slips of the old list at the keys of the new one; a key without history starts unstretched.
-std::vector<Eigen::Vector3d> carried_slip(const ContactState& old, const std::vector<ContactKey>& keys) {
-  std::vector<Eigen::Vector3d> slip(keys.size(), Eigen::Vector3d::Zero());
+/// Elongations of springs of the old list at the keys of the new one; a key without history starts unstretched.
+std::vector<Eigen::Vector3d> carried(const std::vector<ContactKey>& old_keys, const std::vector<Eigen::Vector3d>& old,
+                                     const std::vector<ContactKey>& keys) {
+  std::vector<Eigen::Vector3d> values(keys.size(), Eigen::Vector3d::Zero());
   std::size_t i = 0;
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    while (i < old.keys.size() && old.keys[i] < keys[k]) ++i;
-    if (i < old.keys.size() && old.keys[i] == keys[k]) slip[k] = old.slip[i];
+    while (i < old_keys.size() && old_keys[i] < keys[k]) ++i;
+    if (i < old_keys.size() && old_keys[i] == keys[k]) values[k] = old[i];
   }
-  return slip;
+  return values;
 }
 
 }  // namespace
@@ -38,6 +41,7 @@ struct ContactStage::Data {
   const Model& model;
   double skin;
   std::vector<BodySkin> skins;
+  std::optional<SphereContacts> spheres;  ///< none with facets
 
   // Scratch of the list with this id.
   std::uint64_t list_id = 0;
@@ -47,9 +51,9 @@ struct ContactStage::Data {
   double last_travel = 0.0;
   std::int64_t last_step = -1;
 
-  Data(const Model& m, double s) : model(m), skin(s), skins(make_skins(m)) {}
-
-  double reach() const { return 2 * model.contact.rounding + skin; }
+  Data(const Model& m, double s) : model(m), skin(s), skins(make_skins(m)) {
+    if (m.contact.shape == ContactShape::sphere) spheres.emplace(model, skins);
+  }
 
   double plane_travel(const State& state, const Plane& plane) const {
     return plane.velocity.norm() * std::abs(state.time - state.contact.rebuild_time);
@@ -93,8 +97,10 @@ struct ContactStage::Data {
     last_travel = total_travel(state), last_step = state.step;
   }
 
-  EntryForce push(const State& state, std::size_t i, double dt, Eigen::Vector3d& slip) const {
-    const ContactState& contact = state.contact;
+  EntryForce push(State& state, std::size_t i, double dt) {
+    if (spheres) return spheres->push(state, i, dt);
+    ContactState& contact = state.contact;
+    Eigen::Vector3d& slip = contact.slip[i];
     const ContactKey& key = contact.keys[i];
     const Motion motion{state.x.data(), state.v.data(), dt};
     const BodySkin& a = skins[key.body_a];
@@ -125,8 +131,9 @@ bool ContactStage::update_candidates(State& state, const std::vector<double>& mo
     d.fit_scratch(contact);
     return false;
   }
-  CandidateList list = find_candidates(d.model, d.skins, state.x.data(), d.reach(), state.time);
-  contact.slip = carried_slip(contact, list.keys);
+  CandidateList list = find_candidates(d.model, d.skins, state.x.data(), d.skin, state.time);
+  contact.slip = carried(contact.keys, contact.slip, list.keys);
+  if (!contact.roll.empty()) contact.roll = carried(contact.keys, contact.roll, list.keys);
   contact.keys = std::move(list.keys);
   contact.triangle_offsets = std::move(list.triangle_offsets);
   contact.triangles = std::move(list.triangles);
@@ -144,6 +151,7 @@ void ContactStage::compute(State& state, double dt) {
   ContactState& contact = state.contact;
   d.fit_scratch(contact);
   d.follow(state);
+  if (d.spheres) d.spheres->begin(state);
   const std::int64_t n_chunks = d.live.n_chunks();
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::int64_t chunk = 0; chunk < n_chunks; ++chunk) {
@@ -153,7 +161,7 @@ void ContactStage::compute(State& state, double dt) {
     for (std::int64_t i = first; i < last; ++i) {
       const double travel = d.travel_of(state, contact.keys[i]);
       if (travel < d.wake[i]) continue;
-      EntryForce force = d.push(state, i, dt, contact.slip[i]);
+      EntryForce force = d.push(state, i, dt);
       if (force.live) {
         d.forces[i] = force;
         live[n_live++] = i;
@@ -164,6 +172,7 @@ void ContactStage::compute(State& state, double dt) {
     d.live.end_chunk(chunk, n_live);
   }
   d.live.sort_by_body(contact.keys);
+  if (d.spheres) d.spheres->end(state, d.live);
 }
 
 void ContactStage::gather(int body, proto::Span<double> force) const {
@@ -179,6 +188,7 @@ void ContactStage::gather(int body, proto::Span<double> force) const {
   for (const std::int64_t i : d.live.second_of(body)) {
     for (int k = 0; k < d.forces[i].n_b; ++k) add(d.forces[i].nodes_b[k], d.forces[i].force_b[k]);
   }
+  if (d.spheres) d.spheres->add_couples(body, force);
 }
 
 std::vector<ContactRates> ContactStage::rates(const State& state, double gap) const {
@@ -190,6 +200,12 @@ std::vector<ContactRates> ContactStage::rates(const State& state, double gap) co
     sums.add(i);
   }
   return sums.result();
+}
+
+void ContactStage::for_each_live(const State& state, const LiveVisitor& visit) const {
+  const Data& d = *data_;
+  if (d.list_id != state.contact.list_id) return;
+  for (const std::int64_t i : d.live.all()) visit(state.contact.keys[i], d.forces[i].nodes_a[0], d.forces[i].overlap);
 }
 
 ContactReport ContactStage::report(const State& state) const {

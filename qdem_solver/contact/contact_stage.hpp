@@ -1,6 +1,7 @@
 // Contact between the surfaces of different bodies, and with planes.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "proto/span.hpp"
@@ -34,18 +35,18 @@ inline double near_gap(const ContactLaw& law) {
 /// Every sum is taken in an order fixed by the candidate list, so results do not depend on the number of threads.
 class ContactStage {
  public:
-  /// The model must outlive the stage; its contact law (not the skin) and its planes' points and velocities may change
-  /// between calls, nothing else.
+  /// The model must outlive the stage; its contact law (not skin, shape and radii) and its planes' points and
+  /// velocities may change between calls, nothing else.
   explicit ContactStage(const Model& model);
   ~ContactStage();
 
   /// Takes `moves` [m], of each body an upper bound of how far any of its nodes moved since the last call (empty: none
   /// did); rebuilds the candidate list when a body or plane has moved by more than half the skin. Returns whether it
-  /// rebuilt. Slip of surviving keys is kept.
+  /// rebuilt. Slip and roll of surviving keys are kept.
   bool update_candidates(State& state, const std::vector<double>& moves = {});
 
-  /// Forces of all contacts at positions state.x and velocities state.v; advances the slip by dt [s]. Runs with the
-  /// calling program's OpenMP threads.
+  /// Forces of all contacts at positions state.x and velocities state.v; advances slip and roll by dt [s]. Runs with
+  /// the calling program's OpenMP threads.
   void compute(State& state, double dt);
 
   /// Adds the contact forces on the nodes of `body` to `force` [N], an array laid out like state.x.
@@ -55,6 +56,11 @@ class ContactStage {
   std::vector<ContactRates> rates(const State& state, double gap) const;
 
   ContactReport report(const State& state) const;
+
+  /// A contact that carries a force: its key, the first of its nodes on body a, its overlap [m].
+  using LiveVisitor = std::function<void(const ContactKey&, int node, double overlap)>;
+  /// Visits them in the order of the list.
+  void for_each_live(const State& state, const LiveVisitor& visit) const;
 
  private:
   struct Data;

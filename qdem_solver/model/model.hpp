@@ -111,6 +111,18 @@ struct Plane {
   bool touches_stones = true, touches_sleeper = true;
 };
 
+/// What of two surfaces touches.
+enum class ContactShape {
+  facet,   ///< particles with triangles and edges with edges, all rounded by one radius
+  sphere,  ///< spheres around the surface particles
+};
+
+/// How large the spheres around the surface particles of a body are.
+enum class SphereRadii {
+  equal,    ///< all have ContactLaw::rounding
+  by_edge,  ///< in proportion to the longest surface edge at the particle; their mean is ContactLaw::rounding
+};
+
 /// Contact of surfaces rounded with a small radius: Voigt normal and tangential, Coulomb slider with history.
 struct ContactLaw {
   double normal_stiffness = 0.0;     ///< k_n [N/m]
@@ -119,6 +131,9 @@ struct ContactLaw {
   double friction = 0.0;             ///< [-]
   double rounding = 0.0;             ///< radius by which every surface is rounded [m]
   double skin = 0.0;                 ///< how much farther than touching the candidate list reaches [m]; 0: the rounding
+  ContactShape shape = ContactShape::facet;
+  SphereRadii radii = SphereRadii::equal;  ///< of spheres
+  double rolling_friction = 0.0;     ///< mu_r, of spheres [-]
 };
 
 /// One pad value on the QDEM side: weights of sleeper particles and the direction it measures. See proto::RailSeat.

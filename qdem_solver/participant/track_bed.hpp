@@ -27,7 +27,8 @@ class TrackBed {
  public:
   /// Reads `[qdem]` and `[[rail_seat]]`, takes the bed from `source`, lays the pads.
   /// `on_step` is called after every step. Throws what the source, read_qdem_case(), make_pad_cells() throw, and
-  /// proto::Error (config) for a largest_step_s above the stability bound.
+  /// proto::Error: bad_data for bodies that overlap by more than the case allows, config for a largest_step_s above the
+  /// stability bound.
   TrackBed(const proto::CaseFile& file, const BedSource& source, std::function<void()> on_step);
   TrackBed(const TrackBed&) = delete;
   TrackBed& operator=(const TrackBed&) = delete;
