@@ -1,5 +1,6 @@
 # Tests of contact and bed.
 house_test(contact_test unit SOURCES unit/contact_test.cpp LIBRARIES qdem::contact OpenMP::OpenMP_CXX)
+house_test(sphere_contact_test unit SOURCES unit/sphere_contact_test.cpp LIBRARIES qdem::contact OpenMP::OpenMP_CXX)
 house_test(contact_calibration unit SOURCES unit/contact_calibration.cpp LIBRARIES qdem::contact)
 house_test(bed_test unit SOURCES unit/bed_test.cpp LIBRARIES qdem::bed)
 house_test(stone_files_test unit SOURCES unit/stone_files_test.cpp LIBRARIES qdem::bed)
@@ -10,3 +11,5 @@ house_test(contact_restitution verification SOURCES verification/contact_restitu
 house_test(contact_stack verification SOURCES verification/contact_stack.cpp LIBRARIES qdem::engine)
 house_test(contact_layers verification SOURCES verification/contact_layers.cpp LIBRARIES qdem::engine)
 house_test(contact_sliding verification SOURCES verification/contact_sliding.cpp LIBRARIES qdem::engine)
+house_test(contact_hertz verification SOURCES verification/contact_hertz.cpp LIBRARIES qdem::engine)
+house_test(contact_repose verification SOURCES verification/contact_repose.cpp LIBRARIES qdem::engine)

@@ -101,6 +101,10 @@ void add_physics(InputHash& hash, const BedPhysics& p) {
   }
   hash.add(p.ground_friction);
   hash.add(p.gravity);
+  if (c.shape == ContactShape::sphere) {
+    hash.add(std::string("sphere"));
+    hash.add(static_cast<double>(c.radii)), hash.add(c.rolling_friction);
+  }
   hash.add(static_cast<double>(p.stone.interaction)), hash.add(static_cast<double>(p.sleeper.interaction));
 }
 

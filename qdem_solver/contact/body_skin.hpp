@@ -14,10 +14,11 @@ namespace qdem {
 /// Addresses of one body's values; see model.hpp for the layout.
 struct BodySkin {
   const Template* shape;
-  std::int64_t offset;  ///< of component 0 of node 0
-  std::int64_t stride;  ///< between components
-  double mass_factor;   ///< mass of a node = this x Template::node_volumes [kg/m3]
-  double mass;          ///< of the body [kg]
+  std::int64_t offset;          ///< of component 0 of node 0
+  std::int64_t stride;          ///< between components
+  double mass_factor;           ///< mass of a node = this x Template::node_volumes [kg/m3]
+  double mass;                  ///< of the body [kg]
+  std::vector<double> radii{};  ///< of the contact spheres around its nodes [m]; none with facets
 
   Eigen::Vector3d at(const double* values, int node) const {
     const double* p = values + offset + 3 * stride * node;
@@ -30,16 +31,8 @@ inline double reduced_mass(const BodySkin& a, const BodySkin& b) {
   return a.mass * b.mass / (a.mass + b.mass);
 }
 
-inline std::vector<BodySkin> make_skins(const Model& model) {
-  std::vector<BodySkin> skins;
-  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
-    const double scale = model.bodies[b].scale;
-    skins.push_back(
-        {&model.shape(b), model.index(b, 0), model.stride(b), model.material(b).density * scale * scale * scale,
-         model.body_mass(b)});
-  }
-  return skins;
-}
+/// Of every body; with spheres where the model's contact law has them.
+std::vector<BodySkin> make_skins(const Model& model);
 
 /// Current geometry of one skin triangle.
 struct TriangleNow {

@@ -4,30 +4,19 @@
 #include <numeric>
 
 #include "qdem_solver/contact/closest_point.hpp"
+#include "qdem_solver/contact/found_candidates.hpp"
+#include "qdem_solver/contact/sphere_search.hpp"
 
 namespace qdem {
 namespace {
 
-/// Is q inside the box grown by `reach`?
-bool near_box(const BodyBox& box, const Eigen::Vector3d& q, double reach) {
-  return (q.array() >= box.low.array() - reach).all() && (q.array() <= box.high.array() + reach).all();
-}
+using detail::boxes_near, detail::Found, detail::near_box;
 
-bool boxes_near(const BodyBox& a, const BodyBox& b, double reach) {
-  return (a.low.array() <= b.high.array() + reach).all() && (b.low.array() <= a.high.array() + reach).all();
-}
-
-/// Candidates of one body, its own part of the list.
-struct Found {
-  std::vector<ContactKey> keys;
-  std::vector<int> triangle_counts, triangles;
-};
-
-/// Finds the candidates of one body as the first of each pair.
-class BodySearch {
+/// Finds the candidates of one body as the first of each pair: facets.
+class FacetSearch {
  public:
-  BodySearch(const Model& model, const std::vector<BodySkin>& skins, const std::vector<BodyBox>& boxes,
-             const double* positions, double reach, double time)
+  FacetSearch(const Model& model, const std::vector<BodySkin>& skins, const std::vector<BodyBox>& boxes,
+              const double* positions, double reach, double time)
       : model_(model), skins_(skins), boxes_(boxes), positions_(positions), reach_(reach), time_(time) {}
 
   void search(int a, const std::vector<int>& partners, Found& found) {
@@ -135,22 +124,6 @@ class BodySearch {
   std::vector<NearEdge> edges_a_, edges_b_;
 };
 
-/// Puts one body's entries in key order.
-void sort_found(Found& found) {
-  std::vector<int> order(found.keys.size()), first(found.keys.size());
-  std::iota(order.begin(), order.end(), 0);
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] = first[i - 1] + found.triangle_counts[i - 1];
-  std::sort(order.begin(), order.end(), [&](int i, int j) { return found.keys[i] < found.keys[j]; });
-  Found sorted;
-  for (const int i : order) {
-    sorted.keys.push_back(found.keys[i]);
-    sorted.triangle_counts.push_back(found.triangle_counts[i]);
-    const auto begin = found.triangles.begin() + first[i];
-    sorted.triangles.insert(sorted.triangles.end(), begin, begin + found.triangle_counts[i]);
-  }
-  found = std::move(sorted);
-}
-
 }  // namespace
 
 std::vector<BodyBox> body_boxes(const std::vector<BodySkin>& skins, const double* positions) {
@@ -192,16 +165,17 @@ std::vector<std::vector<int>> near_bodies(const std::vector<BodyBox>& boxes, dou
   return near;
 }
 
-CandidateList find_candidates(const Model& model, const std::vector<BodySkin>& skins, const double* positions,
-                              double reach, double time) {
-  const auto boxes = body_boxes(skins, positions);
-  const auto near = near_bodies(boxes, reach);
-  std::vector<Found> found(skins.size());
+namespace {
+
+/// Searches around every body; `make_search` gives each thread its own search(body, partners, found).
+template <class MakeSearch>
+CandidateList collect(const std::vector<std::vector<int>>& near, MakeSearch make_search) {
+  std::vector<Found> found(near.size());
 #pragma omp parallel
   {
-    BodySearch search(model, skins, boxes, positions, reach, time);
+    auto search = make_search();
 #pragma omp for schedule(dynamic, 8)
-    for (std::size_t a = 0; a < skins.size(); ++a) {
+    for (std::size_t a = 0; a < near.size(); ++a) {
       search.search(static_cast<int>(a), near[a], found[a]);
       sort_found(found[a]);
     }
@@ -214,6 +188,20 @@ CandidateList find_candidates(const Model& model, const std::vector<BodySkin>& s
     list.triangles.insert(list.triangles.end(), part.triangles.begin(), part.triangles.end());
   }
   return list;
+}
+
+}  // namespace
+
+CandidateList find_candidates(const Model& model, const std::vector<BodySkin>& skins, const double* positions,
+                              double skin, double time) {
+  const auto boxes = body_boxes(skins, positions);
+  if (model.contact.shape == ContactShape::sphere) {
+    const double largest = detail::largest_sphere(skins);
+    const auto near = near_bodies(boxes, 2 * largest + skin);
+    return collect(near, [&] { return detail::SphereSearch(model, skins, boxes, positions, largest, skin, time); });
+  }
+  const double reach = 2 * model.contact.rounding + skin;
+  return collect(near_bodies(boxes, reach), [&] { return FacetSearch(model, skins, boxes, positions, reach, time); });
 }
 
 }  // namespace qdem

@@ -23,9 +23,10 @@ std::vector<BodyBox> body_boxes(const std::vector<BodySkin>& skins, const double
 /// Sort and sweep along the longest extent of the scene.
 std::vector<std::vector<int>> near_bodies(const std::vector<BodyBox>& boxes, double reach);
 
-/// All node-skin, edge-edge and node-plane pairs of different bodies within `reach` [m] of each other at `positions`
-/// (planes at `time`; a plane's reach is less by `rounding`). The same list for any number of threads.
+/// All pairs of features of different bodies, or of a body and a plane at its place of `time`, whose surfaces are
+/// nearer than `skin` [m] at `positions`: node-skin and edge-edge pairs within 2 x rounding + skin of each other, or
+/// with spheres the pairs of nodes. The same list for any number of threads.
 CandidateList find_candidates(const Model& model, const std::vector<BodySkin>& skins, const double* positions,
-                              double reach, double time);
+                              double skin, double time);
 
 }  // namespace qdem

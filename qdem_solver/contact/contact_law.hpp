@@ -28,6 +28,19 @@ struct TouchForce {
   ContactPower dissipated;
 };
 
+/// `v` in the plane across the unit vector `n`, its length kept.
+HOUSE_HOST_DEVICE inline Eigen::Vector3d turned_across(const Eigen::Vector3d& n, const Eigen::Vector3d& v) {
+  const Eigen::Vector3d flat = v - n * n.dot(v);
+  const double before = v.squaredNorm(), after = flat.squaredNorm();
+  return after > 0 ? Eigen::Vector3d(flat * std::sqrt(before / after)) : flat;
+}
+
+/// Energy of the normal and the tangential spring [J].
+HOUSE_HOST_DEVICE inline double spring_energy(const ContactLaw& law, double overlap, double share,
+                                              const Eigen::Vector3d& slip) {
+  return 0.5 * law.normal_stiffness * (overlap * overlap + law.tangential_ratio * share * slip.squaredNorm());
+}
+
 /// F_n = max(0, k_n delta - c_n v_n);  u_t turned into the tangent plane, then advanced by v_t dt;
 /// F_t = -k_t u_t - c_t v_t, limited to mu F_n with u_t reset so that the spring carries the limit.
 /// The slider yields by what of v_t does not go into the spring, v_s = v_t - u_t'; it dissipates -F_t . v_s, the
@@ -57,7 +70,7 @@ class VoigtCoulombLaw {
     if (!(friction_ > 0) || !(kt > 0)) return result;
     const Eigen::Vector3d vt = touch.relative_velocity - n * n.dot(touch.relative_velocity);
     const double ct = (zeta2_ * std::sqrt(touch.effective_mass * kt_) + ct_) * touch.share;
-    const Eigen::Vector3d before = turned(slip, n);
+    const Eigen::Vector3d before = turned_across(n, slip);
     result.slip = before + vt * dt;
     Eigen::Vector3d stretch = vt;
     result.tangential = -kt * result.slip - ct * vt;
@@ -74,13 +87,6 @@ class VoigtCoulombLaw {
   }
 
  private:
-  /// `slip` in the plane across `n`, its length kept.
-  HOUSE_HOST_DEVICE static Eigen::Vector3d turned(const Eigen::Vector3d& slip, const Eigen::Vector3d& n) {
-    const Eigen::Vector3d flat = slip - n * n.dot(slip);
-    const double before = slip.squaredNorm(), after = flat.squaredNorm();
-    return after > 0 ? Eigen::Vector3d(flat * std::sqrt(before / after)) : flat;
-  }
-
   double kn_, kt_, cn_, ct_, zeta2_, friction_;
 };
 

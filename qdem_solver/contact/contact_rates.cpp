@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "qdem_solver/contact/edge_pair.hpp"
+#include "qdem_solver/contact/sphere_pair.hpp"
 #include "qdem_solver/contact/surface_point.hpp"
 
 namespace qdem {
@@ -13,10 +14,15 @@ using Eigen::Matrix3d, Eigen::Vector3d;
 
 namespace {
 
-/// Largest stiffness of one contact point [N/m]. Half as much again: the force of an edge pair changes with its share
-/// too (edge_pair.hpp).
+/// Largest stiffness of one contact point [N/m]. The force of an edge pair changes with its share too (edge_pair.hpp):
+/// half as much again.
 double largest_stiffness(const ContactLaw& law) {
-  return 1.5 * law.normal_stiffness * std::max(1.0, law.tangential_ratio);
+  const double allowance = law.shape == ContactShape::facet ? 1.5 : 1.0;
+  return allowance * law.normal_stiffness * std::max(1.0, law.tangential_ratio);
+}
+
+Rates operator*(double factor, const Rates& rates) {
+  return {factor * rates.stiffness, factor * rates.damping};
 }
 
 }  // namespace
@@ -29,44 +35,57 @@ ContactRateSums::ContactRateSums(const Model& model, const std::vector<BodySkin>
       laws_(laws),
       gap_(gap),
       particles_(state.x.size()),
+      turning_(skins.size()),
       rates_(skins.size()) {
-  for (int b = 0; b < static_cast<int>(skins.size()); ++b) {
-    const BodySkin& skin = skins[b];
-    RigidBody body{Vector3d::Zero(), 1 / model.body_mass(b), Matrix3d::Zero()};
-    for (int i = 0; i < skin.shape->n_nodes(); ++i) {
-      body.centre += skin.node_mass(i) / model.body_mass(b) * skin.at(state.x.data(), i);
-    }
-    Matrix3d moment = Matrix3d::Zero();
-    for (int i = 0; i < skin.shape->n_nodes(); ++i) {
-      const Vector3d arm = skin.at(state.x.data(), i) - body.centre;
-      moment += skin.node_mass(i) * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
-    }
-    body.inverse_inertia = moment.inverse();
-    bodies_.push_back(body);
-  }
+  for (const BodySkin& skin : skins) bodies_.emplace_back(skin, state.x.data());
 }
 
-double ContactRateSums::RigidBody::mobility(const Vector3d& point) const {
-  const Vector3d r = point - centre;
-  Matrix3d cross;
-  cross << 0, -r[2], r[1], r[2], 0, -r[0], -r[1], r[0], 0;
-  return inverse_mass + (cross * inverse_inertia * cross.transpose()).norm();
-}
-
-void ContactRateSums::add_share(const Share& share, const Vector3d& point, double stiffness, double damping) {
+void ContactRateSums::add_share(const Share& share, const Vector3d& point, const Rates& contact) {
   const BodySkin& skin = skins_[share.body];
-  for (int i = 0; i < share.n; ++i) {
-    const double per_mass = share.weights[i] / skin.node_mass(share.nodes[i]);
-    Rates& row = particles_[skin.offset + 3 * skin.stride * share.nodes[i]];
-    row = row + Rates{stiffness * per_mass, damping * per_mass};
+  const RigidBody& body = bodies_[share.body];
+  const double turned = share.arm * share.arm * body.inverse_inertia.norm();
+  double along = 1.0;  // 1 + s
+  if (turned > 0) {
+    const double s = std::sqrt(turned * skin.node_mass(share.nodes[0]));
+    along += s;
+    turning_[share.body] = turning_[share.body] + (1 + 1 / s) * turned * contact;
   }
-  const double mobility = bodies_[share.body].mobility(point);
-  rates_[share.body].rigid = rates_[share.body].rigid + Rates{stiffness * mobility, damping * mobility};
+  for (int i = 0; i < share.n; ++i) {
+    const double per_mass = along * share.weights[i] / skin.node_mass(share.nodes[i]);
+    Rates& row = particles_[skin.offset + 3 * skin.stride * share.nodes[i]];
+    row = row + per_mass * contact;
+  }
+  rates_[share.body].rigid = rates_[share.body].rigid + body.mobility(point) * contact;
+}
+
+std::optional<ContactRateSums::Approach> ContactRateSums::approach_of_spheres(const ContactKey& key) const {
+  const double* x = state_.x.data();
+  const BodySkin& a = skins_[key.body_a];
+  const Vector3d centre = a.at(x, key.feature_a);
+  const double radius = a.radii[key.feature_a];
+  Share share{key.body_a, 1, {key.feature_a}, {1.0}};
+  const double inertia = bodies_[key.body_a].rolling_inertia(radius);
+  if (key.is_plane()) {
+    const Plane& plane = model_.planes[~key.body_b];
+    const SphereMeeting meeting = meet(centre, radius, plane, state_.time);
+    if (meeting.gap > gap_) return {};
+    if (plane.friction > 0) share.arm = radius;
+    return Approach{centre - radius * meeting.normal, share, {}, meeting.rolling_radius, inertia};
+  }
+  const BodySkin& b = skins_[key.body_b];
+  const double other_radius = b.radii[key.feature_b];
+  const SphereMeeting meeting = meet(centre, radius, b.at(x, key.feature_b), other_radius);
+  if (meeting.gap > gap_) return {};
+  Share other{key.body_b, 1, {key.feature_b}, {1.0}};
+  if (model_.contact.friction > 0) share.arm = radius, other.arm = other_radius;
+  return Approach{centre - radius * meeting.normal, share, other, meeting.rolling_radius,
+                  joint_inertia(inertia, bodies_[key.body_b].rolling_inertia(other_radius))};
 }
 
 std::optional<ContactRateSums::Approach> ContactRateSums::approach(std::size_t entry) const {
   const ContactState& contact = state_.contact;
   const ContactKey& key = contact.keys[entry];
+  if (model_.contact.shape == ContactShape::sphere) return approach_of_spheres(key);
   const double* x = state_.x.data();
   const double rounding = model_.contact.rounding;
   const BodySkin& a = skins_[key.body_a];
@@ -97,6 +116,12 @@ std::optional<ContactRateSums::Approach> ContactRateSums::approach(std::size_t e
   return Approach{point, node, facet};
 }
 
+void ContactRateSums::add_rolling(const Share& share, const Rates& couple) {
+  const Rates turning = bodies_[share.body].inverse_inertia.norm() * couple;
+  turning_[share.body] = turning_[share.body] + turning;
+  rates_[share.body].rigid = rates_[share.body].rigid + turning;
+}
+
 void ContactRateSums::add(std::size_t entry) {
   const auto near = approach(entry);
   if (!near) return;
@@ -107,8 +132,15 @@ void ContactRateSums::add(std::size_t entry) {
   const double stiffness = largest_stiffness(law);
   const double dashpot =
       2 * law.damping_ratio * std::sqrt(stiffness * mass) + std::max(law.normal_damping, law.tangential_damping);
-  add_share(near->share, near->point, sides * stiffness, sides * dashpot);
-  if (near->other) add_share(*near->other, near->point, sides * stiffness, sides * dashpot);
+  const Rates contact{sides * stiffness, sides * dashpot};
+  add_share(near->share, near->point, contact);
+  if (near->other) add_share(*near->other, near->point, contact);
+  if (!(near->rolling_radius > 0)) return;
+  const RollingLaw rolling(law);
+  const Rates couple = sides * Rates{rolling.stiffness(near->rolling_radius),
+                                     rolling.dashpot(near->rolling_radius, near->rolling_inertia)};
+  add_rolling(near->share, couple);
+  if (near->other) add_rolling(*near->other, couple);
 }
 
 std::vector<ContactRates> ContactRateSums::result() const {
@@ -118,6 +150,7 @@ std::vector<ContactRates> ContactRateSums::result() const {
     for (const int node : skin.shape->surface_nodes) {
       rates[b].particle = larger(rates[b].particle, particles_[skin.offset + 3 * skin.stride * node]);
     }
+    rates[b].particle = rates[b].particle + turning_[b];
   }
   return rates;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -14,6 +15,7 @@
 #include "qdem_solver/contact/entry_force.hpp"
 #include "qdem_solver/contact/entry_laws.hpp"
 #include "qdem_solver/contact/live_entries.hpp"
+#include "qdem_solver/contact/sphere_contacts.hpp"
 
 namespace qdem {
 namespace {
@@ -24,15 +26,16 @@ std::uint64_t list_hash(const ContactState& contact) {
   return hash == 0 ? 1 : hash;
 }
 
-/// Slips of the old list at the keys of the new one; a key without history starts unstretched.
-std::vector<Eigen::Vector3d> carried_slip(const ContactState& old, const std::vector<ContactKey>& keys) {
-  std::vector<Eigen::Vector3d> slip(keys.size(), Eigen::Vector3d::Zero());
+/// Elongations of springs of the old list at the keys of the new one; a key without history starts unstretched.
+std::vector<Eigen::Vector3d> carried(const std::vector<ContactKey>& old_keys, const std::vector<Eigen::Vector3d>& old,
+                                     const std::vector<ContactKey>& keys) {
+  std::vector<Eigen::Vector3d> values(keys.size(), Eigen::Vector3d::Zero());
   std::size_t i = 0;
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    while (i < old.keys.size() && old.keys[i] < keys[k]) ++i;
-    if (i < old.keys.size() && old.keys[i] == keys[k]) slip[k] = old.slip[i];
+    while (i < old_keys.size() && old_keys[i] < keys[k]) ++i;
+    if (i < old_keys.size() && old_keys[i] == keys[k]) values[k] = old[i];
   }
-  return slip;
+  return values;
 }
 
 }  // namespace
@@ -42,6 +45,7 @@ struct ContactStage::Data {
   double skin;
   std::vector<BodySkin> skins;
   EntryLaws laws;
+  std::optional<SphereContacts> spheres;  ///< none with facets
 
   // Scratch of the list with this id.
   std::uint64_t list_id = 0;
@@ -52,9 +56,9 @@ struct ContactStage::Data {
   double last_travel = 0.0;
   std::int64_t last_step = -1;
 
-  Data(const Model& m, double s) : model(m), skin(s), skins(make_skins(m)), laws(m) {}
-
-  double reach() const { return 2 * model.contact.rounding + skin; }
+  Data(const Model& m, double s) : model(m), skin(s), skins(make_skins(m)), laws(m) {
+    if (m.contact.shape == ContactShape::sphere) spheres.emplace(model, skins);
+  }
 
   double plane_travel(const State& state, const Plane& plane) const {
     return plane.velocity.norm() * std::abs(state.time - state.contact.rebuild_time);
@@ -80,7 +84,7 @@ struct ContactStage::Data {
   void check_lining(const State& state) const {
     const ContactState& contact = state.contact;
     if (model.lining.is_rigid() || list_id != contact.list_id) return;
-    const double deepest = 2 * model.contact.rounding + reach() - skin;
+    const double deepest = 4 * model.contact.rounding;
     for (const std::int64_t i : live.all()) {
       if (forces[i].overlap < deepest || contact.keys[i].is_plane() || !laws.is_lined(contact, i)) continue;
       std::ostringstream problem, where;
@@ -118,12 +122,14 @@ struct ContactStage::Data {
     last_travel = total_travel(state), last_step = state.step;
   }
 
-  EntryForce push(const State& state, std::size_t i, double dt, Eigen::Vector3d& slip) const {
-    const ContactState& contact = state.contact;
+  EntryForce push(State& state, std::size_t i, double dt) {
+    ContactState& contact = state.contact;
+    const ContactLaw& law = laws.of(contact, i);
+    if (spheres) return spheres->push(law, state, i, dt);
+    Eigen::Vector3d& slip = contact.slip[i];
     const ContactKey& key = contact.keys[i];
     const Motion motion{state.x.data(), state.v.data(), dt};
     const BodySkin& a = skins[key.body_a];
-    const ContactLaw& law = laws.of(contact, i);
     if (key.is_plane()) {
       return push_on_plane(law, a, key.feature_a, model.planes[~key.body_b], state.time, motion, slip);
     }
@@ -152,8 +158,9 @@ bool ContactStage::update_candidates(State& state, const std::vector<double>& mo
     return false;
   }
   d.check_lining(state);
-  CandidateList list = find_candidates(d.model, d.skins, state.x.data(), d.reach(), state.time);
-  contact.slip = carried_slip(contact, list.keys);
+  CandidateList list = find_candidates(d.model, d.skins, state.x.data(), d.skin, state.time);
+  contact.slip = carried(contact.keys, contact.slip, list.keys);
+  if (!contact.roll.empty()) contact.roll = carried(contact.keys, contact.roll, list.keys);
   contact.keys = std::move(list.keys);
   contact.triangle_offsets = std::move(list.triangle_offsets);
   contact.triangles = std::move(list.triangles);
@@ -172,6 +179,7 @@ ContactPower ContactStage::compute(State& state, double dt) {
   d.fit_scratch(contact);
   d.follow(state);
   d.laws.refresh();
+  if (d.spheres) d.spheres->begin(state);
   const std::int64_t n_chunks = d.live.n_chunks();
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::int64_t chunk = 0; chunk < n_chunks; ++chunk) {
@@ -182,7 +190,7 @@ ContactPower ContactStage::compute(State& state, double dt) {
     for (std::int64_t i = first; i < last; ++i) {
       const double travel = d.travel_of(state, contact.keys[i]);
       if (travel < d.wake[i]) continue;
-      EntryForce force = d.push(state, i, dt, contact.slip[i]);
+      EntryForce force = d.push(state, i, dt);
       if (force.live) {
         d.forces[i] = force;
         power.dashpot += force.dissipated.dashpot, power.friction += force.dissipated.friction;
@@ -195,6 +203,7 @@ ContactPower ContactStage::compute(State& state, double dt) {
     d.powers[chunk] = power;
   }
   d.live.sort_by_body(contact.keys);
+  if (d.spheres) d.spheres->end(state, d.live);
   ContactPower sum;
   for (const ContactPower& power : d.powers) sum.dashpot += power.dashpot, sum.friction += power.friction;
   return sum;
@@ -213,6 +222,7 @@ void ContactStage::gather(int body, proto::Span<double> force) const {
   for (const std::int64_t i : d.live.second_of(body)) {
     for (int k = 0; k < d.forces[i].n_b; ++k) add(d.forces[i].nodes_b[k], d.forces[i].force_b[k]);
   }
+  if (d.spheres) d.spheres->add_couples(body, force);
 }
 
 std::vector<ContactRates> ContactStage::rates(const State& state, double gap) const {
@@ -225,6 +235,15 @@ std::vector<ContactRates> ContactStage::rates(const State& state, double gap) co
     sums.add(i);
   }
   return sums.result();
+}
+
+void ContactStage::for_each_live(const State& state, const LiveVisitor& visit) const {
+  const Data& d = *data_;
+  if (d.list_id != state.contact.list_id) return;
+  for (const std::int64_t i : d.live.all()) {
+    const double own_share = d.laws.of(state.contact, i).normal_stiffness / d.model.contact.normal_stiffness;
+    visit(state.contact.keys[i], d.forces[i].nodes_a[0], own_share * d.forces[i].overlap);
+  }
 }
 
 ContactReport ContactStage::report(const State& state) const {

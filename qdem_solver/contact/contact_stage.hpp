@@ -1,6 +1,7 @@
 // Contact between the surfaces of different bodies, and with planes.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "proto/span.hpp"
@@ -43,19 +44,19 @@ inline double near_gap(const ContactLaw& law) {
 /// Every sum is taken in an order fixed by the candidate list, so results do not depend on the number of threads.
 class ContactStage {
  public:
-  /// The model must outlive the stage; its contact law (not the skin), bearings, and its planes' points and velocities
-  /// may change between calls, nothing else.
+  /// The model must outlive the stage; its contact law (not skin, shape and radii), bearings, and its planes' points and
+  /// velocities may change between calls, nothing else.
   explicit ContactStage(const Model& model);
   ~ContactStage();
 
   /// Takes `moves` [m], of each body an upper bound of how far any of its nodes moved since the last call (empty: none
   /// did); rebuilds the candidate list when a body or plane has moved by more than half the skin. Returns whether it
-  /// rebuilt. Slip of surviving keys is kept. Throws proto::Error (numerics) where the pad body's lining is pressed in
-  /// deeper than a list reaches.
+  /// rebuilt. Slip and roll of surviving keys are kept. Throws proto::Error (numerics) where the pad body's lining is
+  /// pressed in deeper than a list reaches.
   bool update_candidates(State& state, const std::vector<double>& moves = {});
 
-  /// Forces of all contacts at positions state.x and velocities state.v; advances the slip by dt [s]. Runs with the
-  /// calling program's OpenMP threads. Returns what the contacts dissipate.
+  /// Forces of all contacts at positions state.x and velocities state.v; advances slip and roll by dt [s]. Runs with
+  /// the calling program's OpenMP threads. Returns what the contacts dissipate.
   ContactPower compute(State& state, double dt);
 
   /// Adds the contact forces on the nodes of `body` to `force` [N], an array laid out like state.x.
@@ -68,6 +69,12 @@ class ContactStage {
 
   /// The pairs that touch in `state`, whose forces were computed last; ascending by (a, b).
   std::vector<PairForce> pair_forces(const State& state) const;
+
+  /// A contact that carries a force: its key, the first of its nodes on body a, its overlap without
+  /// what a layer behind it gives way [m].
+  using LiveVisitor = std::function<void(const ContactKey&, int node, double overlap)>;
+  /// Visits them in the order of the list.
+  void for_each_live(const State& state, const LiveVisitor& visit) const;
 
  private:
   struct Data;

@@ -1,4 +1,5 @@
-// Forces of one candidate contact on the nodes it involves: node against skin, edge against edge, node against plane.
+// Forces of one candidate contact of facets on the nodes it involves: node against skin, edge against edge, node
+// against plane.
 #pragma once
 
 #include "qdem_solver/contact/contact_law.hpp"
@@ -36,10 +37,6 @@ inline std::array<Eigen::Vector3d, 3> corner_velocities(const BodySkin& skin, co
   return {skin.at(v, nodes[0]), skin.at(v, nodes[1]), skin.at(v, nodes[2])};
 }
 
-inline double spring_energy(const ContactLaw& law, double overlap, double share, const Eigen::Vector3d& slip) {
-  return 0.5 * law.normal_stiffness * (overlap * overlap + law.tangential_ratio * share * slip.squaredNorm());
-}
-
 }  // namespace detail
 
 /// Node of a against the skin of b over candidate triangles [first, last). The normal force acts along the line of the
@@ -75,7 +72,7 @@ inline EntryForce push_node(const ContactLaw& law, const BodySkin& a, int node, 
     result.force_b[k] = -point.weights[k] * normal_force - frame.corner_force(k, force.tangential);
   }
   result.overlap = overlap;
-  result.energy = detail::spring_energy(law, overlap, 1.0, slip);
+  result.energy = spring_energy(law, overlap, 1.0, slip);
   result.dissipated = force.dissipated;
   return result;
 }
@@ -181,7 +178,7 @@ inline EntryForce push_on_plane(const ContactLaw& law, const BodySkin& a, int no
   result.nodes_a[0] = node;
   result.force_a[0] = force.normal * n + force.tangential;
   result.overlap = overlap;
-  result.energy = detail::spring_energy(law, overlap, 1.0, slip);
+  result.energy = spring_energy(law, overlap, 1.0, slip);
   result.dissipated = force.dissipated;
   return result;
 }

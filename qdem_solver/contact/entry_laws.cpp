@@ -77,6 +77,10 @@ void EntryLaws::refresh() {
 bool EntryLaws::is_lined(const ContactState& contact, std::size_t entry) const {
   if (model_.lining.is_rigid()) return false;
   const ContactKey& key = contact.keys[entry];
+  if (model_.contact.shape == ContactShape::sphere) {
+    if (key.body_a == model_.pad_body) return nodes_[key.feature_a] != 0;
+    return !key.is_plane() && key.body_b == model_.pad_body && nodes_[key.feature_b] != 0;
+  }
   if (key.body_a == model_.pad_body) return (key.is_edge_pair() ? edges_ : nodes_)[key.feature_a] != 0;
   if (key.is_plane() || key.body_b != model_.pad_body) return false;
   if (key.is_edge_pair()) return edges_[key.feature_b] != 0;

@@ -128,6 +128,18 @@ struct Plane {
   Bearing bearing = {};  ///< behind it
 };
 
+/// What of two surfaces touches.
+enum class ContactShape {
+  facet,   ///< particles with triangles and edges with edges, all rounded by one radius
+  sphere,  ///< spheres around the surface particles
+};
+
+/// How large the spheres around the surface particles of a body are.
+enum class SphereRadii {
+  equal,    ///< all have ContactLaw::rounding
+  by_edge,  ///< in proportion to the longest surface edge at the particle; their mean is ContactLaw::rounding
+};
+
 /// Contact of surfaces rounded with a small radius: Voigt normal and tangential, Coulomb slider with history.
 struct ContactLaw {
   double normal_stiffness = 0.0;    ///< k_n [N/m]
@@ -138,6 +150,9 @@ struct ContactLaw {
   double skin = 0.0;                ///< how much farther than touching the candidate list reaches [m]; 0: the rounding
   double normal_damping = 0.0;      ///< of what lies behind the surfaces, beside the contact's own dashpot [N s/m]
   double tangential_damping = 0.0;  ///< the same along them [N s/m]
+  ContactShape shape = ContactShape::facet;
+  SphereRadii radii = SphereRadii::equal;  ///< of spheres
+  double rolling_friction = 0.0;           ///< mu_r, of spheres [-]
 };
 
 /// One pad value on the QDEM side: weights of sleeper particles and the direction it measures. See proto::RailSeat.

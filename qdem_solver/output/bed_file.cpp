@@ -113,7 +113,7 @@ void take_planes(const Hdf5Store& file, Model& model) {
   }
 }
 
-void put_state(Hdf5Store& file, const State& state) {
+void put_state(Hdf5Store& file, const Model& model, const State& state) {
   file.put("state/x", state.x, "m");
   file.put("state/v", state.v, "m/s");
   file.put("state/a", state.a, "m/s2");
@@ -121,12 +121,14 @@ void put_state(Hdf5Store& file, const State& state) {
   Integers keys, offsets(contact.triangle_offsets.begin(), contact.triangle_offsets.end()),
       triangles(contact.triangles.begin(), contact.triangles.end());
   for (const ContactKey& k : contact.keys) keys.insert(keys.end(), {k.body_a, k.body_b, k.feature_a, k.feature_b});
-  Reals slip;
+  Reals slip, roll;
   for (const Vector3d& s : contact.slip) append(slip, s);
+  for (const Vector3d& r : contact.roll) append(roll, r);
   file.put("state/contact/keys", keys);
   file.put("state/contact/triangle_offsets", offsets);
   file.put("state/contact/triangles", triangles);
   file.put("state/contact/slip", slip, "m");
+  if (model.contact.rolling_friction > 0) file.put("state/contact/roll", roll, "rad");
   file.put("state/contact/travel", contact.travel, "m");
   file.put("state/contact/rebuild_time", Reals{contact.rebuild_time}, "s");
   file.put("state/contact/rebuilds_and_list_id", Integers{contact.rebuilds, static_cast<long long>(contact.list_id)});
@@ -145,6 +147,10 @@ void take_state(const Hdf5Store& file, const Model& model, State& state) {
   contact.triangles.assign(triangles.begin(), triangles.end());
   const Reals slip = file.reals("state/contact/slip");
   for (std::size_t i = 0; i + 2 < slip.size(); i += 3) contact.slip.push_back(triple(slip, i));
+  if (model.contact.rolling_friction > 0) {
+    const Reals roll = file.reals("state/contact/roll");
+    for (std::size_t i = 0; i + 2 < roll.size(); i += 3) contact.roll.push_back(triple(roll, i));
+  }
   contact.travel = file.reals("state/contact/travel");
   contact.rebuild_time = file.reals("state/contact/rebuild_time").at(0);
   contact.rebuilds = counts.at(0), contact.list_id = static_cast<std::uint64_t>(counts.at(1));
@@ -227,7 +233,7 @@ void write_bed_file(const std::string& path, const Bed& bed) {
     put_templates(file, bed.model);
     put_bodies(file, bed.model);
     put_planes(file, bed.model);
-    put_state(file, bed.state);
+    put_state(file, bed.model, bed.state);
     put_report(file, bed.report);
     file.close();
   } catch (const proto::Error&) {

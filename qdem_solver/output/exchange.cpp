@@ -17,6 +17,7 @@ void exchange(proto::StateArchive& archive, const std::string& prefix, ContactSt
   archive(prefix + "triangle_offsets", contact.triangle_offsets);
   archive(prefix + "triangles", contact.triangles);
   archive(prefix + "slip", contact.slip);
+  archive(prefix + "roll", contact.roll);
   archive(prefix + "travel", contact.travel);
   archive(prefix + "rebuilds", contact.rebuilds);
   archive(prefix + "rebuild_time", contact.rebuild_time);

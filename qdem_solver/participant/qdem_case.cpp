@@ -134,8 +134,20 @@ double read_normal_stiffness(const Section& section, const Material& stone, doub
   }
 }
 
+void read_contact_shape(const Section& section, ContactLaw& law) {
+  if (section.choice_or("law", "facet", {"facet", "sphere"}) == "sphere") law.shape = ContactShape::sphere;
+  for (const char* key : {"sphere_radii", "rolling_friction"}) {
+    if (law.shape != ContactShape::sphere && section.has(key)) {
+      section.fail(key, "it is for contact spheres, and the law is \"facet\"", "set law = \"sphere\", or remove it");
+    }
+  }
+  if (section.choice_or("sphere_radii", "equal", {"equal", "by_edge"}) == "by_edge") law.radii = SphereRadii::by_edge;
+  law.rolling_friction = section.number_or("rolling_friction", 0.0, Range::between(0.0, 2.0));
+}
+
 void read_contact(const Section& section, BedPhysics& physics) {
   ContactLaw& law = physics.contact;
+  read_contact_shape(section, law);
   law.damping_ratio = read_damping_ratio(section);
   law.normal_stiffness = read_normal_stiffness(section, physics.stone, law.damping_ratio);
   law.tangential_ratio = section.number_or("tangential_ratio", 0.8, Range::between(0.0, 1.0));
@@ -168,7 +180,9 @@ QdemCase read_qdem_case(const proto::CaseFile& file) {
   read_materials(section, result.physics);
   read_layers(section, result.physics);
   check_use(file, result.physics);
-  read_contact(section.section("contact"), result.physics);
+  const Section contact = section.section("contact");
+  read_contact(contact, result.physics);
+  result.initial_overlap_limit = contact.number_or("initial_overlap_limit", 0.01, Range::positive());
   result.sensors = read_sensors(section);
   result.contact_output = section.boolean_or("contact_output", false);
   result.run = read_run(section.section("run"), result.physics.gravity.norm());

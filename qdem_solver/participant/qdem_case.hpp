@@ -19,11 +19,12 @@ struct RunAlone {
 
 struct QdemCase {
   BedPhysics physics;
-  double step_safety = 0.8;           ///< share of the computed stability bound
-  double largest_step = 0.0;          ///< the user's own limit [s]; 0: none
-  int threads = 0;                    ///< 0: as many as the environment gives
-  double initialise_damping = 0.5;    ///< Cundall's damping in the initialise phase [-]
-  int steps_per_viscous_sample = 16;  ///< see EngineOptions
+  double step_safety = 0.8;             ///< share of the computed stability bound
+  double largest_step = 0.0;            ///< the user's own limit [s]; 0: none
+  int threads = 0;                      ///< 0: as many as the environment gives
+  double initial_overlap_limit = 0.01;  ///< of two bodies at the start, over the edge of their elements [-]
+  double initialise_damping = 0.5;      ///< Cundall's damping in the initialise phase [-]
+  int steps_per_viscous_sample = 16;    ///< see EngineOptions
   SensorsSettings sensors;
   bool contact_output = false;  ///< contacts.h5 beside every output of the fields
   RunAlone run;
@@ -38,7 +39,8 @@ struct QdemCase {
 ///     retardation_time_s; loss_factor with loss_factor_frequency_hz; lame_viscosity_pa_s with shear_viscosity_pa_s
 ///   [qdem.contact] normal_stiffness_n_per_m, or hertz_load_n with hertz_radius_m (tangent of Hertz's law there), or
 ///     contact_time_s with contact_mass_kg (of two stones of that mass); damping_ratio or restitution;
-///     tangential_ratio, friction, ground_friction, rounding_m
+///     tangential_ratio, friction, ground_friction, rounding_m, initial_overlap_limit; law ("facet", "sphere"), with
+///     spheres sphere_radii ("equal", "by_edge"), rolling_friction
 ///   [qdem.under_sleeper_pad], [qdem.under_ballast_mat], [qdem.subgrade] (layers_case.hpp)
 ///   [qdem.run] duration_s, output_interval_s
 ///   [[qdem.run.load]] (load_settings.hpp)

@@ -9,6 +9,8 @@
 #include "proto/error.hpp"
 #include "proto/result/provenance.hpp"
 #include "qdem_solver/contact/calibration.hpp"
+#include "qdem_solver/contact/initial_overlap.hpp"
+#include "qdem_solver/contact/sphere_radii.hpp"
 #include "qdem_solver/model/pad_cells.hpp"
 
 namespace qdem {
@@ -29,6 +31,9 @@ TrackBed::TrackBed(const proto::CaseFile& file, const BedSource& source, std::fu
       seats_(proto::read_rail_seats(file)),
       bed_(bed_of(file, settings_, source)),
       rest_(bed_.state) {
+  refuse_initial_overlaps(bed_.model, rest_, settings_.initial_overlap_limit, file.name() + ", bed " + bed_.report.hash,
+                          "place the bodies apart; where weights alone press soft contacts so deep, raise "
+                          "[qdem.contact] initial_overlap_limit");
   bed_.model.pads = make_pad_cells(bed_.model, bed_.state, bed_.model.pad_body, seats_);
   if (role == BedRole::alone) bed_.model.loads = make_patch_loads(bed_.model, bed_.state, settings_.run.loads);
   engine_ = std::make_unique<Engine>(
@@ -103,6 +108,7 @@ std::vector<proto::Fact> TrackBed::facts() const {
   add("qdem.normal_stiffness_n_per_m", bed_.model.contact.normal_stiffness);
   add("qdem.damping_ratio", bed_.model.contact.damping_ratio);
   add("qdem.restitution", restitution_of(bed_.model.contact.damping_ratio));
+  if (bed_.model.contact.shape == ContactShape::sphere) add("qdem.open_facets", open_facets(bed_.model));
   add("qdem.step_bound_s", step_bound_);
   add("qdem.largest_step_s", largest_step_);
   add("qdem.damping_step_factor", bound_->viscosity_factor(bed_.state, engine_->contacts(), touching_gap()));

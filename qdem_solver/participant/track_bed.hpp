@@ -30,7 +30,8 @@ class TrackBed {
  public:
   /// Reads `[qdem]` and `[[rail_seat]]`, takes the bed from `source`, lays the pads.
   /// `on_step` is called after every step. Throws what the source, read_qdem_case(), make_pad_cells() and
-  /// make_patch_loads() throw, and proto::Error (config) for a largest_step_s above the stability bound.
+  /// make_patch_loads() throw, and proto::Error: bad_data for bodies that overlap by more than the case allows, config
+  /// for a largest_step_s above the stability bound.
   TrackBed(const proto::CaseFile& file, const BedSource& source, std::function<void()> on_step,
            BedRole role = BedRole::coupled);
   TrackBed(const TrackBed&) = delete;

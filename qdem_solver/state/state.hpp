@@ -12,8 +12,8 @@ namespace qdem {
 
 /// Identity of a contact across rebuilds of the candidate list.
 struct ContactKey {
-  int body_a = 0, body_b = 0;         ///< a < b for edge pairs; a owns the vertex for vertex-surface pairs; b < 0: plane ~b
-  int feature_a = 0, feature_b = 0;   ///< node or edge of a; edge of b, -1 for vertex-surface
+  int body_a = 0, body_b = 0;         ///< a < b for edge and sphere pairs; a owns the vertex for vertex-surface pairs; b < 0: plane ~b
+  int feature_a = 0, feature_b = 0;   ///< node or edge of a; edge of b, with spheres its node, -1 for vertex-surface
   bool is_plane() const { return body_b < 0; }
   bool is_edge_pair() const { return feature_b >= 0; }
   friend bool operator==(const ContactKey& p, const ContactKey& q) {
@@ -34,6 +34,7 @@ struct ContactState {
   std::vector<int> triangle_offsets;          ///< CSR of candidate triangles (vertex-surface entries only)
   std::vector<int> triangles;
   std::vector<Eigen::Vector3d> slip;          ///< tangential spring elongation u_t of each key [m]
+  std::vector<Eigen::Vector3d> roll;          ///< rolling spring's turn of each key [rad]; empty without rolling friction
   std::vector<double> travel;                 ///< of each body: bound of any node's movement since the last rebuild [m]
   std::int64_t rebuilds = 0;
   double rebuild_time = 0.0;                  ///< State::time of the last rebuild; moving planes travel since then [s]

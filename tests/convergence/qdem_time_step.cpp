@@ -111,19 +111,24 @@ TEST(V4, LimitWithVoigtDamping) {
   }
 }
 
-/// A cube that lies turned on another, which lies on the ground: the contacts, not the elements, limit the step.
+/// A cube that lies on another, which lies on the ground: the contacts, not the elements, limit the step. With facets
+/// it lies turned and shifted, with spheres particle on particle.
 class PressedCubes {
  public:
-  explicit PressedCubes(double damping_ratio)
+  PressedCubes(double damping_ratio, qdem::ContactShape shape)
       : model_(tests::free_bodies(tests::box_template({2, 2, 2}, Eigen::Vector3d::Constant(0.04)), tests::rock(), 2)) {
     model_.materials[0].young *= 1e-3;
-    model_.contact = {1e7, 0.8, damping_ratio, 100.0, 1e-3};
+    const bool facets = shape == qdem::ContactShape::facet;
+    const double rounding = facets ? 1e-3 : 12e-3;
+    model_.contact = {1e7, 0.8, damping_ratio, 100.0, rounding};
+    model_.contact.shape = shape, model_.contact.rolling_friction = 0.1;
     model_.planes.push_back({"ground", {0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 100.0});
     model_.gravity = {0, 0, -9.81};
     qdem::make_batches(model_);
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.35, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    state_ = qdem::make_state(model_, {{Eigen::Matrix3d::Identity(), {0, 0, 1e-3 - overlap}},
-                                       {turn, {0.005, -0.005, 0.04 + 3e-3 - 2 * overlap}}});
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(facets ? 0.35 : 0.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const double shift = facets ? 0.005 : 0.0;
+    state_ = qdem::make_state(model_, {{Eigen::Matrix3d::Identity(), {0, 0, rounding - overlap}},
+                                       {turn, {shift, -shift, 0.04 + 3 * rounding - 2 * overlap}}});
   }
 
   double computed() {
@@ -160,9 +165,11 @@ class PressedCubes {
   qdem::State state_;
 };
 
-TEST(V4, LimitWithContacts) {
+namespace {
+
+void expect_a_bound(qdem::ContactShape shape) {
   for (const double zeta : {0.0, 0.2}) {
-    PressedCubes cubes(zeta);
+    PressedCubes cubes(zeta, shape);
     const double computed = cubes.computed();
     double share = 1.0;
     while (share < 8 && cubes.is_stable(share * computed)) share *= 1.1;
@@ -170,6 +177,16 @@ TEST(V4, LimitWithContacts) {
     EXPECT_GT(share, 1.0) << "the bound is no bound";
     EXPECT_LT(share, 5.0) << "the bound wastes steps";
   }
+}
+
+}  // namespace
+
+TEST(V4, LimitWithContacts) {
+  expect_a_bound(qdem::ContactShape::facet);
+}
+
+TEST(V4, LimitWithContactSpheres) {
+  expect_a_bound(qdem::ContactShape::sphere);
 }
 
 TEST(TimeIntegration, SecondOrderWithDamping) {

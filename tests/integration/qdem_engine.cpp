@@ -36,6 +36,15 @@ qdem::Model heap(qdem::Interaction interaction = qdem::Interaction::quadruple) {
   return model;
 }
 
+/// The same with contact spheres that roll with resistance.
+qdem::Model heap_of_spheres() {
+  auto model = heap();
+  model.contact.shape = qdem::ContactShape::sphere, model.contact.radii = qdem::SphereRadii::by_edge;
+  model.contact.rounding = 12e-3, model.contact.rolling_friction = 0.1;
+  model.contact.damping_ratio = 0.7, model.gravity *= 10;  // they stay together
+  return model;
+}
+
 qdem::State heap_state(const qdem::Model& model) {
   std::vector<qdem::Placement> places(21);
   for (int i = 0; i < 20; ++i) {
@@ -64,6 +73,7 @@ void expect_same_bytes(const qdem::State& p, const qdem::State& q) {
   EXPECT_TRUE(same_bytes(p.a, q.a));
   EXPECT_TRUE(p.contact.keys == q.contact.keys);
   EXPECT_TRUE(p.contact.slip == q.contact.slip);
+  EXPECT_TRUE(p.contact.roll == q.contact.roll);
   EXPECT_EQ(p.ledger.contact_dashpots, q.ledger.contact_dashpots);
   EXPECT_EQ(p.ledger.friction, q.ledger.friction);
   EXPECT_EQ(p.ledger.viscous, q.ledger.viscous);
@@ -100,8 +110,13 @@ TEST(Engine, ThreadsDoNotChangeABitOfBonds) {
   expect_threads_change_no_bit(heap(qdem::Interaction::bond));
 }
 
-TEST(Engine, RestoredSnapshotContinuesWithTheSameBytes) {
-  const auto model = heap();
+TEST(Engine, ThreadsDoNotChangeABitOfSpheres) {
+  expect_threads_change_no_bit(heap_of_spheres());
+}
+
+namespace {
+
+void expect_a_restored_snapshot_continues(const qdem::Model& model) {
   qdem::State state = heap_state(model);
   qdem::Engine engine(model, {2});
   engine.prepare(state);
@@ -117,6 +132,16 @@ TEST(Engine, RestoredSnapshotContinuesWithTheSameBytes) {
   other.advance(fresh, step, 1000);
   expect_same_bytes(state, fresh);
   EXPECT_GT(engine.contacts().report(state).live, 4);
+}
+
+}  // namespace
+
+TEST(Engine, RestoredSnapshotContinuesWithTheSameBytes) {
+  expect_a_restored_snapshot_continues(heap());
+}
+
+TEST(Engine, RestoredSnapshotOfSpheresContinuesWithTheSameBytes) {
+  expect_a_restored_snapshot_continues(heap_of_spheres());
 }
 
 namespace {

@@ -354,6 +354,17 @@ TEST(BedHash, KnowsHowParticlesInteract) {
   EXPECT_NE(bed_hash(file, physics), quadruples);
 }
 
+TEST(BedHash, KnowsTheContactLaw) {
+  const auto file = proto::CaseFile::load(case_with("seed = 7\n"));
+  qdem::BedPhysics physics;
+  const auto facets = bed_hash(file, physics);
+  physics.contact.shape = qdem::ContactShape::sphere;
+  const auto spheres = bed_hash(file, physics);
+  EXPECT_NE(spheres, facets);
+  physics.contact.rolling_friction = 0.1;
+  EXPECT_NE(bed_hash(file, physics), spheres);
+}
+
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
@@ -414,6 +425,20 @@ TEST(BedFile, RoundTripIsBitwise) {
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   EXPECT_THROW(qdem::read_bed_file(path, physics), proto::Error);
   std::filesystem::remove_all(folder);
+}
+
+TEST(BedFile, KeepsTheRollOfSpheres) {
+  qdem::BedPhysics physics;
+  physics.stone = {"stone", 6e10, 0.25, 2700, 0, 0}, physics.sleeper = {"sleeper", 4e10, 0.2, 2400, 0, 0};
+  physics.contact.normal_stiffness = 1e6, physics.contact.friction = 0.5, physics.contact.rounding = 3e-2;
+  physics.contact.shape = qdem::ContactShape::sphere, physics.contact.rolling_friction = 0.2;
+  const qdem::Bed bed = two_cubes(physics);
+  ASSERT_GT(bed.state.contact.roll.size(), 4u);
+  const auto path =
+      (std::filesystem::temp_directory_path() / ("spheres_" + std::to_string(::getpid()) + ".h5")).string();
+  write_bed_file(path, bed);
+  EXPECT_TRUE(same_bytes(bed.state.contact.roll, qdem::read_bed_file(path, physics).state.contact.roll));
+  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -2,10 +2,13 @@
 #include <omp.h>
 
 #include <cstring>
+#include <string>
 
+#include "proto/error.hpp"
 #include "qdem_solver/contact/candidates.hpp"
 #include "qdem_solver/contact/edge_pair.hpp"
 #include "qdem_solver/contact/entry_force.hpp"
+#include "qdem_solver/contact/initial_overlap.hpp"
 #include "tests/support/tolerance.hpp"
 #include "tests/unit/contact_scene.hpp"
 
@@ -211,7 +214,7 @@ TEST(Candidates, AgreeWithBruteForce) {
     std::mt19937_64 random(100 + seed);
     const qdem::State state = strewn(model, random, 0.045, 0);
     const double reach = 0.003;
-    const auto list = find_candidates(model, skins, state.x.data(), reach, 0);
+    const auto list = find_candidates(model, skins, state.x.data(), reach - 2 * model.contact.rounding, 0);
     const auto expected = brute_force(model, skins, state, reach);
     EXPECT_GT(expected.size(), 100u);
     ASSERT_TRUE(list.keys == expected);
@@ -359,6 +362,33 @@ TEST(ContactStage, APlaneCarriesABoxAtItsSignedDistance) {
   const auto sum = resultant(model, state, stage);
   EXPECT_TRUE(near_rel(sum.force[2], 9 * 1e6 * overlap, 1e-9));  // nine nodes of the lower face
   EXPECT_TRUE(near_abs(sum.force.head<2>().norm(), 0, 1e-12));
+}
+
+TEST(InitialOverlap, IsListedByPairs) {
+  qdem::Model model = model_of_boxes(3);
+  model.planes.push_back({"ground", {0, 0, -1}, Vector3d::UnitZ(), Vector3d::Zero(), 0.5, true, true});
+  const double touching = 0.02 * (model.bodies[0].scale + model.bodies[1].scale) + 2e-3;
+  const auto state_at = [&](double overlap) {
+    return make_state(model,
+                      {qdem::Placement{},
+                       {Eigen::Matrix3d::Identity(), {0, 0, touching - overlap}},
+                       {Eigen::Matrix3d::Identity(), {0.5, 0, -1 + 0.02 * model.bodies[2].scale + 1e-3 - overlap}}});
+  };
+  EXPECT_NO_THROW(refuse_initial_overlaps(model, state_at(0.1e-3), 0.01, "a test", ""));
+  const auto found = initial_overlaps(model, state_at(0.5e-3), 0.01);
+  ASSERT_EQ(found.size(), 2u);
+  for (const auto& overlap : found) EXPECT_TRUE(near_rel(overlap.depth, 0.5e-3, 1e-9));
+  try {
+    refuse_initial_overlaps(model, state_at(0.5e-3), 0.01, "a test", "move them");
+    FAIL() << "accepted";
+  } catch (const proto::Error& error) {
+    EXPECT_EQ(error.code(), proto::ExitCode::bad_data);
+    const std::string text = error.what();
+    for (const char* part : {"2 pairs overlap at the start by more than 1 % of the edge: ", "body 0 '' node ",
+                             "body 2 '' node ", " and plane 'ground', 0.5 mm (", "a test", "move them"}) {
+      EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+    }
+  }
 }
 
 }  // namespace

@@ -57,6 +57,19 @@ qdem::ContactLaw contact(const std::string& keys) {
 
 }  // namespace
 
+TEST(QdemCase, ReadsTheLawOfSpheres) {
+  const auto facets = read("").physics.contact;
+  EXPECT_EQ(facets.shape, qdem::ContactShape::facet);
+  const std::string keys = "normal_stiffness_n_per_m = 1e6\nlaw = \"sphere\"\ndamping_ratio = 0.1\n";
+  const auto equal = contact(keys);
+  EXPECT_EQ(equal.shape, qdem::ContactShape::sphere);
+  EXPECT_EQ(equal.radii, qdem::SphereRadii::equal);
+  EXPECT_EQ(equal.rolling_friction, 0.0);
+  const auto by_edge = contact(keys + "sphere_radii = \"by_edge\"\nrolling_friction = 0.2\n");
+  EXPECT_EQ(by_edge.radii, qdem::SphereRadii::by_edge);
+  EXPECT_EQ(by_edge.rolling_friction, 0.2);
+}
+
 TEST(QdemCase, CalibratesTheContact) {
   // The small case has stones of 1 GPa, nu 0.25.
   const auto hertz = contact("hertz_load_n = 500.0\nhertz_radius_m = 5e-3\ndamping_ratio = 0.1\n");

@@ -27,13 +27,21 @@ Momenta momenta(const qdem::Model& model, const qdem::State& state) {
   return sum;
 }
 
-class Impact : public ::testing::TestWithParam<int> {};
+struct Meeting {
+  qdem::ContactShape shape;
+  int orientation;
+};
+
+class Impact : public ::testing::TestWithParam<Meeting> {};
 
 TEST_P(Impact, ConservesEnergyAndMomenta) {
   qdem::Model model = model_of_boxes(2, 0.0, 0.0);
   model.gravity.setZero();
-  std::mt19937_64 random(50 + GetParam());
-  const Vector3d aim = in_cube(random, 0.01) + Vector3d(0.085, 0, 0);
+  const bool spheres = GetParam().shape == qdem::ContactShape::sphere;
+  model.contact.shape = GetParam().shape;
+  if (spheres) model.contact.rounding = 8e-3;
+  std::mt19937_64 random(50 + GetParam().orientation);
+  const Vector3d aim = in_cube(random, 0.01) + Vector3d(spheres ? 0.095 : 0.085, 0, 0);
   qdem::State state = make_state(model, {{turn(random), Vector3d::Zero()}, {turn(random), aim}});
   for (int b = 0; b < 2; ++b) {
     for (int i = 0; i < model.shape(b).n_nodes(); ++i) {
@@ -66,6 +74,13 @@ TEST_P(Impact, ConservesEnergyAndMomenta) {
   EXPECT_LT((end.angular - start.angular).norm(), 1e-11 * mass * 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Orientations, Impact, ::testing::Range(0, 4));
+std::vector<Meeting> meetings(qdem::ContactShape shape) {
+  std::vector<Meeting> all;
+  for (int orientation = 0; orientation < 4; ++orientation) all.push_back({shape, orientation});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Orientations, Impact, ::testing::ValuesIn(meetings(qdem::ContactShape::facet)));
+INSTANTIATE_TEST_SUITE_P(Spheres, Impact, ::testing::ValuesIn(meetings(qdem::ContactShape::sphere)));
 
 }  // namespace

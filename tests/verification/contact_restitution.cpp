@@ -37,6 +37,12 @@ qdem::Model cubes(int n, double zeta) {
   return model;
 }
 
+qdem::Model cubes_with_spheres(int n, double zeta) {
+  auto model = cubes(n, zeta);
+  model.contact.shape = qdem::ContactShape::sphere;
+  return model;
+}
+
 /// A cube on the vertex at its own origin, the opposite one straight above, which comes to lie `height` above z = 0.
 qdem::Placement on_vertex(double height) {
   const Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::Ones(), Vector3d::UnitZ()).toRotationMatrix();
@@ -93,5 +99,23 @@ TEST(Restitution, VertexOnTheFaceOfAHeavierBody) {
     const double half = 0.5 * 1.5 * edge;
     const qdem::Placement below{Matrix3d::Identity(), {-half, -half, -2 * half}};
     expect_restitution(rebound(model, {on_vertex(2.05 * rounding), below}), zeta);
+  }
+}
+
+TEST(Restitution, SphereOnAPlane) {
+  for (const double zeta : ratios) {
+    auto model = cubes_with_spheres(1, zeta);
+    model.planes.push_back({"ground", {0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 0.0});
+    expect_restitution(rebound(model, {on_vertex(rounding * 1.05)}), zeta);
+  }
+}
+
+TEST(Restitution, SphereOnTheSphereOfAHeavierBody) {
+  for (const double zeta : ratios) {
+    auto model = cubes_with_spheres(2, zeta);
+    model.bodies[1].scale = 1.5;
+    qdem::make_batches(model);
+    const double diagonal = 1.5 * edge * std::sqrt(3.0);
+    expect_restitution(rebound(model, {on_vertex(2.05 * rounding), on_vertex(-diagonal)}), zeta);
   }
 }
