@@ -14,7 +14,8 @@ CaseInput read_case(const std::string& path) {
 }
 
 std::vector<proto::ParticipantSpec> find_participants(const CaseInput& input) {
-  std::vector<proto::ParticipantSpec> result{input.coupling.qdem, input.coupling.fem};
+  std::vector<proto::ParticipantSpec> result{input.coupling.qdem};
+  if (!plays_recorded_rail(input.coupling)) result.push_back(input.coupling.fem);
   for (auto& spec : result)
     spec.command.front() =
         find_program(spec.command.front(), input.file.path() + ": coupling." + spec.name + "_command");

@@ -183,6 +183,7 @@ int run_in(const CaseInput& input, const RunFolder& folder, const Orders& orders
 /// What the command line says in place of the case.
 void apply(const RunOptions& options, proto::Coupling& coupling) {
   if (!options.scheme.empty()) coupling.scheme = proto::scheme_of(options.scheme);
+  if (options.sub_cycle_factor > 0) coupling.sub_cycle_factor = options.sub_cycle_factor;
   if (options.window_s > 0.0) {
     const double duration = static_cast<double>(coupling.n_windows) * coupling.window_s;
     coupling.window_s = options.window_s;
