@@ -1,11 +1,16 @@
 # Tests of coupler.
-house_test(coupler_scheme_test unit SOURCES unit/coupler_scheme.cpp LIBRARIES coupler::scheme)
+house_test(coupler_scheme_test unit SOURCES unit/coupler_scheme.cpp LIBRARIES coupler::advisor)
+house_test(coupler_implicit_test unit SOURCES unit/coupler_implicit.cpp LIBRARIES coupler::advisor)
+house_test(coupler_joint_test unit SOURCES unit/coupler_joint.cpp LIBRARIES coupler::advisor)
+house_test(coupler_audit_test unit SOURCES unit/coupler_audit.cpp LIBRARIES coupler::scheme)
+house_test(coupler_split_bar_test verification SOURCES verification/coupler_split_bar.cpp LIBRARIES coupler::advisor)
+house_test(coupler_advisor_test verification SOURCES verification/coupler_advisor.cpp LIBRARIES coupler::advisor)
 house_test(coupler_interface_check_test unit SOURCES unit/coupler_interface_check.cpp LIBRARIES coupler::mapping)
 house_test(coupler_launch_test integration SOURCES integration/coupler_launch.cpp LIBRARIES coupler::launch TIMEOUT 60)
 add_dependencies(coupler_launch_test coupler)
 find_package(nlohmann_json 3.11 REQUIRED)
 house_test(coupler_split_oscillator_test convergence SOURCES convergence/coupler_split_oscillator.cpp
-           LIBRARIES coupler::scheme nlohmann_json::nlohmann_json)
+           LIBRARIES coupler::advisor nlohmann_json::nlohmann_json)
 add_dependencies(coupler_split_oscillator_test coupler oscillator_participant)
 add_executable(wrong_version_participant support/wrong_version_participant.cpp)
 target_link_libraries(wrong_version_participant PRIVATE proto::participant proto_session_sockets house::options)
@@ -14,7 +19,7 @@ house_test(coupler_faults_test fault SOURCES fault/coupler_faults.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 240)
 add_dependencies(coupler_faults_test coupler oscillator_participant relaxing_participant wrong_version_participant)
 add_executable(relaxing_participant support/relaxing_participant.cpp)
-target_link_libraries(relaxing_participant PRIVATE proto::participant coupler::scheme house::options)
+target_link_libraries(relaxing_participant PRIVATE proto::participant coupler::advisor house::options)
 set_target_properties(relaxing_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
 house_test(coupler_initialise_test integration SOURCES integration/coupler_initialise.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 60)
@@ -32,6 +37,9 @@ add_custom_target(spring_rail_participant DEPENDS ${spring_rail}/spring_rail.py)
 house_test(python_participant_test integration SOURCES integration/python_participant.cpp
            LIBRARIES proto::case nlohmann_json::nlohmann_json TIMEOUT 120)
 add_dependencies(python_participant_test coupler oscillator_participant spring_rail_participant)
+house_test(coupler_schemes_run_test integration SOURCES integration/coupler_schemes_run.cpp
+           LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 60)
+add_dependencies(coupler_schemes_run_test coupler relaxing_participant oscillator_participant)
 house_test(coupler_supervisor_test integration SOURCES integration/coupler_supervisor.cpp
            LIBRARIES coupler::supervise nlohmann_json::nlohmann_json TIMEOUT 60)
 add_dependencies(coupler_supervisor_test coupler oscillator_participant)

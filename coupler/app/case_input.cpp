@@ -20,7 +20,8 @@ void use_fem(proto::Coupling& coupling, const std::string& fem) {
 }
 
 std::vector<proto::ParticipantSpec> find_participants(const CaseInput& input) {
-  std::vector<proto::ParticipantSpec> result{input.coupling.qdem, input.coupling.fem};
+  std::vector<proto::ParticipantSpec> result{input.coupling.qdem};
+  if (!plays_recorded_rail(input.coupling)) result.push_back(input.coupling.fem);
   for (auto& spec : result)
     spec.command.front() =
         find_program(spec.command.front(), input.file.path() + ": coupling." + spec.name + "_command");

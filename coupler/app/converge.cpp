@@ -1,14 +1,15 @@
-// `coupler converge`: a case with H, H/2, H/4, ..., and the order at which its interface converges.
+// `coupler converge`: a case that is refined again and again, and the order at which its interface converges.
 #include <fmt/format.h>
-
-#include <cmath>
 
 #include "coupler/app/case_input.hpp"
 #include "coupler/app/options.hpp"
+#include "coupler/app/refined_case.hpp"
+#include "coupler/launch/children.hpp"
+#include "coupler/launch/program_path.hpp"
 #include "coupler/record/run_folder.hpp"
 #include "coupler/report/convergence.hpp"
+#include "coupler/report/seat_histories.hpp"
 #include "proto/error.hpp"
-#include "proto/result/reader.hpp"
 #include "proto/result/text_file.hpp"
 
 namespace coupler {
@@ -16,64 +17,60 @@ namespace {
 
 constexpr double allowed_shortfall = 0.2;  // of the observed below the expected order
 
-double expected_order(proto::Scheme scheme) {
-  return scheme == proto::Scheme::serial_staggered ? 1.0 : 2.0;
-}
-
-/// Reads one run's histories at the instants of the coarsest, whose windows hold `ratio` of this run's.
-class Histories {
+/// What is refined, and how far at one level.
+class Ladder {
  public:
-  Histories(const std::string& path, std::uint64_t ratio) : reader_(path), ratio_(ratio), n_(reader_.n_committed()) {}
+  Ladder(const RunOptions& options, const CaseInput& input, const RunFolder& folder)
+      : options_(options), input_(input), folder_(folder) {}
 
-  std::vector<double> at_instants(const std::string& column) const {
-    const auto [values, width] = rows(column);
-    std::vector<double> result;
-    for (std::uint64_t row = 0; row < n_; row += ratio_) {
-      result.insert(result.end(), &values[row * width], &values[row * width] + width);
+  /// The run of level `level`.
+  RunOptions run(int level) const {
+    RunOptions run = options_;
+    run.out = folder_.file("level_" + std::to_string(level));
+    const int factor = 1 << level;
+    if (options_.over == Refine::window) run.window_s = input_.coupling.window_s / factor;
+    if (options_.over == Refine::sub_cycles) run.sub_cycle_factor = input_.coupling.sub_cycle_factor * factor;
+    if (options_.over == Refine::cells) {
+      run.case_path = folder_.file("level_" + std::to_string(level) + ".toml");
+      proto::write_text_file(run.case_path, with_finer_cells(input_.file.text(), factor));
     }
-    return result;
+    return run;
   }
 
-  /// Means of an impulse over the coarse windows.
-  std::vector<double> mean_force(const std::string& column, double coarse_window_s) const {
-    const auto [values, width] = rows(column);
-    std::vector<double> result;
-    for (std::uint64_t row = 1; row + ratio_ <= n_; row += ratio_) {
-      for (std::size_t i = 0; i < width; ++i) {
-        double sum = 0.0;
-        for (std::uint64_t k = 0; k < ratio_; ++k) sum += values[(row + k) * width + i];
-        result.push_back(sum / coarse_window_s);
-      }
-    }
-    return result;
+  RefinedBy refined_by(int n_levels) const {
+    const double first = options_.over == Refine::window ? input_.coupling.window_s : 1.0;
+    RefinedBy by{options_.over == Refine::window       ? "window [s]"
+                 : options_.over == Refine::sub_cycles ? "step of the sub-cycles [of the coarsest]"
+                                                       : "cell size [of the coarsest]",
+                 {}};
+    for (int level = 0; level < n_levels; ++level) by.values.push_back(first / (1 << level));
+    return by;
+  }
+
+  double expected_order(proto::Scheme scheme) const {
+    return options_.over == Refine::window ? proto::expected_order(scheme) : 2.0;
   }
 
  private:
-  std::pair<std::vector<double>, std::size_t> rows(const std::string& column) const {
-    auto values = reader_.read_rows(column, n_).values;
-    const std::size_t width = values.size() / n_;
-    return {std::move(values), width};
-  }
-
-  proto::ResultReader reader_;
-  std::uint64_t ratio_, n_;
+  const RunOptions& options_;
+  const CaseInput& input_;
+  const RunFolder& folder_;
 };
 
-std::vector<Refinement> gather(const std::vector<std::string>& files, const CaseInput& input) {
-  std::vector<Refinement> quantities;
-  for (const auto& seat : input.seats) {
-    const std::string group = "/seats/" + seat.name + "/";
-    Refinement rail{seat.name + " rail displacement", "m", {}}, sleeper{seat.name + " sleeper displacement", "m", {}},
-        force{seat.name + " mean pad force", "N", {}};
-    for (std::size_t l = 0; l < files.size(); ++l) {
-      const Histories run(files[l], std::uint64_t{1} << l);
-      rail.levels.push_back(run.at_instants(group + "rail_displacement"));
-      sleeper.levels.push_back(run.at_instants(group + "sleeper_displacement"));
-      force.levels.push_back(run.mean_force(group + "impulse", input.coupling.window_s));
-    }
-    for (auto* quantity : {&rail, &sleeper, &force}) quantities.push_back(std::move(*quantity));
+/// Draws `script` if gnuplot is there; says what to do if it is not.
+void draw(const std::string& script, const std::string& svg) {
+  try {
+    Children children(own_path());
+    children.start({"gnuplot", {find_program("gnuplot", "PATH"), script}, {}, script + ".log"});
+    while (!children.exit_of("gnuplot")) children.wait(0.1);
+    const auto exit = *children.exit_of("gnuplot");
+    if (exit.code == 0 && exit.signal == 0)
+      fmt::print("plot in {}\n", svg);
+    else
+      fmt::print("gnuplot {}: see {}.log\n", exit.text(), script);
+  } catch (const proto::Error&) {
+    fmt::print("no plot: gnuplot is not installed; its commands are in {}\n", script);
   }
-  return quantities;
 }
 
 }  // namespace
@@ -82,29 +79,33 @@ int converge_case(const RunOptions& options, int n_levels) {
   auto input = read_case(options.case_path);
   const auto scheme = options.scheme.empty() ? input.coupling.scheme : proto::scheme_of(options.scheme);
   const RunFolder folder(options.out, input.file.name() + "-converge");
+  const Ladder ladder(options, input, folder);
   std::vector<std::string> files;
-  std::vector<double> windows;
   for (int level = 0; level < n_levels; ++level) {
-    RunOptions run = options;
-    run.window_s = input.coupling.window_s / std::exp2(level);
-    run.out = folder.file("level_" + std::to_string(level));
+    const auto run = ladder.run(level);
     const int code = run_case(run);
     if (code != 0) return code;
-    windows.push_back(run.window_s);
     files.push_back(run.out + "/coupling.h5");
   }
+  const auto by = ladder.refined_by(n_levels);
+  const double expected = ladder.expected_order(scheme);
+  const bool means = options.over == Refine::cells;
   std::vector<ObservedOrder> orders;
-  for (const auto& quantity : gather(files, input)) orders.push_back(observed_order(quantity));
-  fmt::print("{}", order_table(orders, windows));
-  proto::write_text_file(folder.file("convergence.csv"), order_csv(orders, windows));
-  fmt::print("distances between the levels in {}\n", folder.file("convergence.csv"));
-  const double least = expected_order(scheme) - allowed_shortfall;
+  for (const auto& quantity : seat_refinements(files, input.seats, means ? SeatValues::means : SeatValues::cells))
+    orders.push_back(observed_order(quantity));
+  fmt::print("{}", order_table(orders, by));
+  const auto csv = folder.file("convergence.csv"), script = folder.file("convergence.gnuplot"),
+             svg = folder.file("convergence.svg");
+  proto::write_text_file(csv, order_csv(orders, by));
+  proto::write_text_file(script, order_plot(orders, by, expected, csv, svg));
+  fmt::print("distances between the levels in {}\n", csv);
+  draw(script, svg);
   for (const auto& order : orders) {
-    if (order.last() >= least) continue;
+    if (!order.has_order() || order.last() >= expected - allowed_shortfall) continue;
     throw proto::Error(proto::ExitCode::numerics,
                        fmt::format("{} converges with order {:.2f}, scheme {} should with {:g}", order.name,
-                                   order.last(), proto::name_of(scheme), expected_order(scheme)),
-                       folder.path(), "begin with a shorter window: the order shows only where H resolves the motion");
+                                   order.last(), proto::name_of(scheme), expected),
+                       folder.path(), "begin finer: the order shows only where the motion is resolved");
   }
   return 0;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "coupler/app/scheme_needs.hpp"
 #include "coupler/launch/program_path.hpp"
 #include "coupler/mapping/interface_check.hpp"
 #include "coupler/report/progress.hpp"
@@ -21,12 +22,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<std::size_t> cell_counts(const std::vector<proto::RailSeat>& seats) {
-  std::vector<std::size_t> counts;
-  for (const auto& seat : seats) counts.push_back(static_cast<std::size_t>(seat.n_cells()));
-  return counts;
-}
-
 /// Generous bound of one message: names, a few fields, the registered operators.
 std::size_t largest_message(const std::vector<proto::RailSeat>& seats) {
   return 8 * sizeof(double) * 64 * proto::n_interface_values(seats) + (1u << 20);
@@ -40,54 +35,35 @@ Patience patience_of(const proto::Coupling& coupling) {
   return patience;
 }
 
-proto::Configure configure_request(const CaseInput& input, const std::string& out,
-                                   const std::vector<proto::PadLaw>& laws) {
-  proto::Configure request;
-  request.window_s = input.coupling.window_s;
-  request.windows = input.coupling.n_windows;
-  const bool robin = proto::uses_robin(input.coupling.scheme);
-  request.mode = robin ? proto::LoadMode::robin : proto::LoadMode::prescribed_force;
-  request.output_directory = out;
-  for (const auto& law : laws) {
-    request.stiffness.push_back(law.stiffness);
-    request.damping.push_back(law.damping);
-    request.preload.push_back(law.preload);
-    request.tension_cutoff.push_back(law.tension_cutoff);
-  }
-  return request;
-}
-
-/// What the case asks for must have been offered.
-void check_capabilities(const std::string& name, const proto::Capabilities& offered, const proto::Coupling& coupling) {
-  if (coupling.initialise.max_windows > 0 && !offered.initialise)
-    throw ParticipantError(name, proto::ExitCode::config, name + " does not offer the initialise phase", "set-up",
-                           "remove [coupling.initialise] from the case");
-  const auto& scheme = proto::name_of(coupling.scheme);
-  if (proto::uses_robin(coupling.scheme) && name == "fem" && !offered.robin)
-    throw ParticipantError(name, proto::ExitCode::config,
-                           fmt::format("{} does not offer the Robin condition that {} needs", name, scheme), "set-up",
-                           "set coupling.scheme = \"E1\"");
-  if (coupling.scheme == proto::Scheme::robin_corrected && !offered.rollback)
-    throw ParticipantError(name, proto::ExitCode::config,
-                           fmt::format("{} does not offer the rollback that {} needs", name, scheme), "set-up",
-                           "set coupling.scheme = \"R1\"");
+std::vector<std::string> names_of(const CaseInput& input) {
+  std::vector<std::string> names;
+  for (const auto& spec : find_participants(input)) names.push_back(spec.name);
+  return names;
 }
 
 }  // namespace
 
 CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary)
     : input_(input),
+      names_(names_of(input)),
       folder_(folder),
       log_(log),
       summary_(summary),
-      endpoint_(socket_folder_.path(), largest_message(input.seats), {{"qdem", "fem"}, input.file.hash(), 1.0}),
+      endpoint_(socket_folder_.path(), largest_message(input.seats), {names_, input.file.hash(), 1.0}),
       children_(own_path()),
       supervisor_(children_, endpoint_, patience_of(input.coupling)),
       qdem_(supervisor_, "qdem"),
       fem_(supervisor_, "fem"),
-      audit_(cell_counts(input.seats), input.coupling.window_s),
+      rail_(&fem_),
+      judge_(input, log, summary),
       slots_(folder.path()),
+      can_save_(input.coupling.scheme != proto::Scheme::rigid_per_step),
       begin_(std::chrono::steady_clock::now()) {
+  if (plays_recorded_rail(input.coupling)) {
+    const double duration = static_cast<double>(input.coupling.n_windows) * input.coupling.window_s;
+    recorded_.emplace(input.coupling.one_way.history, input.seats, duration);
+    rail_ = &*recorded_;
+  }
   supervisor_.on_long_set_up([](const std::string& text) { fmt::print(stderr, "{}\n", text); });
   for (const auto& seat : input.seats) summary_.seats.push_back({seat.name, 0.0, 0.0, 0.0});
 }
@@ -112,12 +88,6 @@ void CoupledRun::start(int n_threads) {
   }
 }
 
-proto::Configured CoupledRun::configure(const std::string& name, const proto::Configure& request) {
-  auto answer = supervisor_.await<proto::Configured>(name, supervisor_.send(name, request), true);
-  summary_.facts.insert(summary_.facts.end(), answer.facts.begin(), answer.facts.end());
-  return answer;
-}
-
 void CoupledRun::set_up() {
   for (const auto& [name, hello] : supervisor_.await_hellos()) {
     log_.info("{} connected, protocol {}.{}, build {}", name, hello.protocol_major, hello.protocol_minor,
@@ -126,28 +96,30 @@ void CoupledRun::set_up() {
     can_save_ = can_save_ && hello.capabilities.save_restore;
   }
   supervisor_.set_stage("set-up");
-  const auto qdem = supervisor_.await<proto::Interface>("qdem", 0, true);
-  const auto fem = supervisor_.await<proto::Interface>("fem", 0, true);
-  check_interface("qdem", qdem, input_.seats);
-  check_interface("fem", fem, input_.seats);
-  check_outgoing_fields("qdem", qdem,
-                        {field::impulse, field::pad_work, field::sleeper_displacement, field::sleeper_velocity});
-  check_outgoing_fields("fem", fem, {field::rail_displacement, field::rail_velocity, field::force_used});
-  if (proto::uses_robin(input_.coupling.scheme)) check_outgoing_fields("fem", fem, {field::force_robin});
-  laws_ = registered_pad("qdem", qdem, input_.seats);
-
-  const auto request = configure_request(input_, folder_.path(), laws_);
-  const auto fem_ticket = supervisor_.send("fem", request);  // both build their models at the same time
-  const auto configured = configure("qdem", request);
-  const auto fem_configured = supervisor_.await<proto::Configured>("fem", fem_ticket, true);
-  summary_.facts.insert(summary_.facts.end(), fem_configured.facts.begin(), fem_configured.facts.end());
-  configured_step_s_ = configured.largest_step_s;
-  initialise_step_s_ =
-      configured.largest_initialise_step_s ? configured.largest_initialise_step_s : configured.largest_step_s;
+  for (const auto& name : names_) {
+    const auto registered = supervisor_.await<proto::Interface>(name, 0, true);
+    check_registration(name, registered, input_);
+    if (name == "qdem") laws_ = registered_pad(name, registered, input_.seats);
+  }
+  configure();
   summary_.wall.start_up = seconds_since(begin_);
   waited_in_start_up_s_ = supervisor_.waited_s();
   log_.info("configured: largest step {} s, {} s while initialising", configured_step_s_.value_or(0.0),
             initialise_step_s_.value_or(0.0));
+  judge_.advise(laws_);
+}
+
+void CoupledRun::configure() {
+  std::vector<std::uint64_t> tickets;  // all build their models at the same time
+  for (const auto& name : names_)
+    tickets.push_back(supervisor_.send(name, configure_request(name, input_, folder_.path(), laws_)));
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const auto answer = supervisor_.await<proto::Configured>(names_[i], tickets[i], true);
+    summary_.facts.insert(summary_.facts.end(), answer.facts.begin(), answer.facts.end());
+    if (names_[i] != "qdem") continue;
+    configured_step_s_ = answer.largest_step_s;
+    initialise_step_s_ = answer.largest_initialise_step_s ? answer.largest_initialise_step_s : answer.largest_step_s;
+  }
 }
 
 void CoupledRun::account(const WindowRecord& record) {
@@ -160,14 +132,15 @@ void CoupledRun::initialise() {
   if (limits.max_windows == 0) return;
   RestWatch watch(limits);
   Progress progress("relaxing", limits.max_windows, limits.window_s);
-  WindowScheme scheme(input_.coupling.scheme, limits.window_s, sub_cycles_for(limits.window_s, initialise_step_s_),
-                      laws_);
+  auto coupling = input_.coupling;
+  coupling.sub_cycle_factor = 1;  // only the state of rest counts
+  const auto scheme = make_scheme(coupling.scheme, coupling,
+                                  {limits.window_s, sub_cycles_for(limits.window_s, initialise_step_s_), laws_});
   bool at_rest = false;
   for (int n = 0; !at_rest && n < limits.max_windows; ++n) {
     supervisor_.set_stage(fmt::format("initialise window {}", n));
-    const auto record = scheme.advance(proto::Phase::initialise, n, {fem_, qdem_});
-    fem_.commit({n});
-    qdem_.commit({n});
+    const auto record = scheme->advance(proto::Phase::initialise, n, {*rail_, qdem_});
+    scheme->commit(n, {*rail_, qdem_});
     account(record);
     const auto forces = seat_forces(record, input_.seats, limits.window_s);
     at_rest = watch.add({forces, record.explicit_residual, record.implicit_residual});
@@ -186,20 +159,34 @@ void CoupledRun::initialise() {
   log_.info("at rest after {} windows: {}", summary_.initialise_windows, watch.text());
 }
 
+InterfaceState CoupledRun::initial_values(std::optional<double>& largest_step_s) {
+  std::uint64_t fem_ticket = 0;
+  if (!recorded_) fem_ticket = supervisor_.send("fem", proto::Start{});
+  const auto sleeper = supervisor_.await<proto::Result>("qdem", supervisor_.send("qdem", proto::Start{}));
+  if (sleeper.largest_step_s) largest_step_s = sleeper.largest_step_s;
+  InterfaceState initial;
+  initial.sleeper_displacement = sleeper.data.get(field::sleeper_displacement);
+  initial.sleeper_velocity = sleeper.data.get(field::sleeper_velocity);
+  if (recorded_) {
+    initial.rail_displacement = recorded_->initial_displacement();
+    initial.rail_velocity = recorded_->initial_velocity();
+    return initial;
+  }
+  const auto rail = supervisor_.await<proto::Result>("fem", fem_ticket);
+  initial.rail_displacement = rail.data.get(field::rail_displacement);
+  initial.rail_velocity = rail.data.get(field::rail_velocity);
+  return initial;
+}
+
 void CoupledRun::begin() {
   supervisor_.set_stage("start");
-  const auto fem_ticket = supervisor_.send("fem", proto::Start{});
-  const auto qdem_ticket = supervisor_.send("qdem", proto::Start{});
-  const auto rail = supervisor_.await<proto::Result>("fem", fem_ticket);
-  const auto sleeper = supervisor_.await<proto::Result>("qdem", qdem_ticket);
-  const InterfaceState initial{rail.data.get(field::rail_displacement), rail.data.get(field::rail_velocity),
-                               sleeper.data.get(field::sleeper_displacement),
-                               sleeper.data.get(field::sleeper_velocity)};
-  const auto step = sleeper.largest_step_s ? sleeper.largest_step_s : configured_step_s_;
-  scheme_.emplace(input_.coupling.scheme, input_.coupling.window_s, sub_cycles_for(input_.coupling.window_s, step),
-                  laws_);
+  auto step = configured_step_s_;
+  const auto initial = initial_values(step);
+  const double window_s = input_.coupling.window_s;
+  scheme_ =
+      make_scheme(input_.coupling.scheme, input_.coupling, {window_s, first_sub_cycles(input_.coupling, step), laws_});
   scheme_->start(initial);
-  record_.emplace(folder_.file("coupling.h5"), input_.seats, input_.coupling.window_s, record_attributes());
+  record_.emplace(folder_.file("coupling.h5"), input_.seats, window_s, record_attributes());
   record_->add_initial(initial);
 }
 
@@ -213,9 +200,10 @@ proto::Attributes CoupledRun::record_attributes() const {
 }
 
 void CoupledRun::add_window(const WindowRecord& record) {
-  record_->add(record, audit_.add(record));
-  hash_.add(record);
+  const auto defects = judge_.add(record);
+  record_->add(record, defects, judge_.audit());
   update_figures(summary_.seats, record, input_.seats, input_.coupling.window_s);
+  hash_.add(record);
   summary_.sub_cycles = std::max(summary_.sub_cycles, record.sub_cycles);
   update_totals(record.window + 1);
 }
@@ -223,8 +211,14 @@ void CoupledRun::add_window(const WindowRecord& record) {
 void CoupledRun::update_totals(std::int64_t n_windows) {
   summary_.n_windows = n_windows;
   summary_.interface_hash = hash_.value();
-  summary_.energy_defect_relative = audit_.energy_defect_relative();
-  summary_.momentum_defect_relative = audit_.momentum_defect_relative();
+  judge_.report();
+}
+
+void CoupledRun::switch_scheme(proto::Scheme to) {
+  const auto& coupling = input_.coupling;
+  auto next = make_scheme(to, coupling, {coupling.window_s, scheme_->state().sub_cycles, laws_});
+  next->resume(scheme_->state());
+  scheme_ = std::move(next);
 }
 
 MarchEnd CoupledRun::march(std::optional<Clock::time_point> deadline) {
@@ -239,16 +233,18 @@ MarchEnd CoupledRun::march(std::optional<Clock::time_point> deadline) {
       return end;
     }
     supervisor_.set_stage(fmt::format("window {}", n));
-    const auto record = scheme_->advance(proto::Phase::march, n, {fem_, qdem_});
+    const auto record = scheme_->advance(proto::Phase::march, n, {*rail_, qdem_});
     account(record);
     add_window(record);
-    fem_.commit({n});
-    qdem_.commit({n});
+    scheme_->commit(n, {*rail_, qdem_});
     next_window_ = n + 1;
+    if (const auto next = judge_.judge(supervisor_.stage(), next_window_ == n_windows)) switch_scheme(*next);
     if (save_is_due(n)) save(n);
-    progress.update(n + 1);
+    progress.update(n + 1, fmt::format("defects {:.1e} (energy) {:.1e} (momentum)", summary_.energy_defect_relative,
+                                       summary_.momentum_defect_relative));
   }
   if (can_save_ && saves_at_all()) save(n_windows - 1);  // a longer run can go on from here
+  judge_.observe();
   return MarchEnd::complete;
 }
 

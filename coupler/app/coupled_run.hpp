@@ -3,22 +3,22 @@
 
 #include <spdlog/logger.h>
 
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "coupler/app/case_input.hpp"
+#include "coupler/app/run_judge.hpp"
 #include "coupler/launch/children.hpp"
 #include "coupler/record/checkpoint.hpp"
 #include "coupler/record/coupling_record.hpp"
 #include "coupler/record/interface_hash.hpp"
+#include "coupler/record/recorded_rail.hpp"
 #include "coupler/record/run_folder.hpp"
 #include "coupler/record/socket_folder.hpp"
 #include "coupler/record/summary.hpp"
-#include "coupler/scheme/audit.hpp"
-#include "coupler/scheme/window_scheme.hpp"
+#include "coupler/scheme/coupling_scheme.hpp"
 #include "coupler/supervise/remote_side.hpp"
 #include "coupler/supervise/supervisor.hpp"
 
@@ -61,19 +61,23 @@ class CoupledRun {
   bool has_checkpoint() const { return checkpointed_window_ >= 0; }
 
  private:
-  proto::Configured configure(const std::string& name, const proto::Configure& request);
+  void configure();
+  /// Ends the initialise phase; a step that the explicit side names replaces `largest_step_s`.
+  InterfaceState initial_values(std::optional<double>& largest_step_s);
   proto::Attributes record_attributes() const;
   void save(std::int64_t window);
   bool saves_at_all() const;
   bool save_is_due(std::int64_t window) const;
   void exchange(proto::StateArchive& archive);
   void add_window(const WindowRecord& record);
+  void switch_scheme(proto::Scheme to);
   void account(const WindowRecord& record);
   void update_totals(std::int64_t n_windows);
   void update_wall_time();
   MarchEnd early_end(std::optional<std::chrono::steady_clock::time_point> deadline) const;
 
   const CaseInput& input_;
+  std::vector<std::string> names_;  ///< of the participants
   const RunFolder& folder_;
   spdlog::logger& log_;
   Summary& summary_;
@@ -82,14 +86,16 @@ class CoupledRun {
   Children children_;
   Supervisor supervisor_;
   RemoteSide qdem_, fem_;
-  Audit audit_;
+  std::optional<RecordedRail> recorded_;  ///< in the place of fem
+  Side* rail_;                            ///< fem, or the recorded one
+  RunJudge judge_;
   std::vector<proto::PadLaw> laws_;
   std::optional<double> configured_step_s_, initialise_step_s_;  ///< largest of the explicit side [s]
-  std::optional<WindowScheme> scheme_;                           ///< of the march
+  std::unique_ptr<CouplingScheme> scheme_;                       ///< of the march
   std::optional<CouplingRecord> record_;
   InterfaceHash hash_;
   CheckpointSlots slots_;
-  bool can_save_ = true;  ///< both participants offer it
+  bool can_save_;  ///< all participants offer it, and the scheme's windows are theirs
   std::int64_t next_window_ = 0;
   std::int64_t checkpointed_window_ = -1;  ///< of the last set that this run saved
   std::chrono::steady_clock::time_point last_save_;

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <map>
 
 #include "coupler/app/analyze_options.hpp"
 #include "coupler/launch/children.hpp"
@@ -58,7 +59,12 @@ int command_line(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   run->add_option("--restart", options.n_restarts, "how often to go on by itself when a participant is lost")
       ->check(CLI::Range(0, 1000));
-  auto* converge = add_runner("converge", "run a case with H, H/2, H/4, ... and report the observed orders");
+  auto* converge = add_runner("converge", "run a case finer and finer and report the observed orders");
+  const std::map<std::string, coupler::Refine> refined{{"window", coupler::Refine::window},
+                                                       {"sub_cycles", coupler::Refine::sub_cycles},
+                                                       {"cells", coupler::Refine::cells}};
+  converge->add_option("--over", options.over, "what is refined: window, sub_cycles or cells (default: window)")
+      ->transform(CLI::CheckedTransformer(refined));
   converge->add_option("--levels", n_levels, "number of runs")->check(CLI::Range(3, 12))->capture_default_str();
   coupler::AnalyzeOptions analysis;
   const auto* analyze = coupler::add_analyze_command(app, analysis);

@@ -8,12 +8,17 @@
 
 namespace coupler {
 
+/// What `coupler converge` refines: H, the sub-cycles, or the cells of the rail seats.
+enum class Refine { window, sub_cycles, cells };
+
 struct RunOptions {
   std::string case_path;
   std::string out;                ///< empty: runs/<case>-<time>
   std::string scheme;             ///< a name, or empty: as the case says
   std::string fem;                ///< see use_fem(), or empty: as the case says
   double window_s = 0.0;          ///< instead of the case's; 0: as the case says [s]
+  int sub_cycle_factor = 0;       ///< likewise; 0: as the case says
+  Refine over = Refine::window;   ///< of converge_case()
   int n_threads = 0;              ///< of each participant; 0: as the environment says
   std::string resume;             ///< folder of an earlier run to go on in; empty: a new run
   std::set<std::string> allowed;  ///< of a resumed run: may differ ("case", "version")
@@ -29,9 +34,10 @@ int run_case(const RunOptions& options);
 /// may be empty: the case is then read where the run found it.
 int resume_run(const RunOptions& options);
 
-/// Runs the case with its window H, then H/2, H/4, ... into folders of `options.out`, prints the observed order of
-/// every seat's motion and force, and writes convergence.csv. Exit code as run_case(); throws proto::Error (numerics)
-/// when an order is more than 0.2 below that of the scheme. `n_levels` >= 3.
+/// Runs the case `n_levels` (>= 3) times, each refined by two against the one before, into folders of `options.out`;
+/// prints the observed order of every seat's motion and force; writes convergence.csv, convergence.gnuplot and, where
+/// gnuplot is installed, convergence.svg. Exit code as run_case(); throws proto::Error (numerics) when an order is more
+/// than 0.2 below the expected one: the scheme's over windows, two over sub-cycles and cells.
 int converge_case(const RunOptions& options, int n_levels);
 
 struct AnalyzeOptions {

@@ -62,12 +62,12 @@ struct Orders {
   std::optional<Checkpoint> set;  ///< to go on from
 };
 
-/// Sets status and failure; returns the exit code.
-int judge(MarchEnd end, const CoupledRun& run, Summary& summary) {
+/// Sets status and failure of a run whose march ended during `stage`; returns the exit code.
+int judge(MarchEnd end, int signal, const std::string& stage, Summary& summary) {
   summary.status = end == MarchEnd::complete ? "ok" : "interrupted";
-  if (end == MarchEnd::stopped_by_user) summary.failure = stopped_by_user(run.stop_signal(), run.stage());
+  if (end == MarchEnd::stopped_by_user) summary.failure = stopped_by_user(signal, stage);
   if (end == MarchEnd::out_of_time)
-    summary.failure = {"stopped at the limit of wall time - " + run.stage(), "user", out_of_time_code};
+    summary.failure = {"stopped at the limit of wall time - " + stage, "user", out_of_time_code};
   return end == MarchEnd::complete ? 0 : summary.failure.exit_code;
 }
 
@@ -82,8 +82,9 @@ int carry_out(CoupledRun& run, Summary& summary, const Orders& orders) {
     run.begin();
   }
   const auto end = run.march(orders.deadline);
+  const std::string stage = run.stage();
   run.finish();
-  return judge(end, run, summary);
+  return judge(end, run.stop_signal(), stage, summary);
 }
 
 /// Whether a failure may be due to where it ran and not to what was run.
@@ -184,6 +185,7 @@ int run_in(const CaseInput& input, const RunFolder& folder, const Orders& orders
 void apply(const RunOptions& options, proto::Coupling& coupling) {
   use_fem(coupling, options.fem);
   if (!options.scheme.empty()) coupling.scheme = proto::scheme_of(options.scheme);
+  if (options.sub_cycle_factor > 0) coupling.sub_cycle_factor = options.sub_cycle_factor;
   if (options.window_s > 0.0) {
     const double duration = static_cast<double>(coupling.n_windows) * coupling.window_s;
     coupling.window_s = options.window_s;

@@ -9,7 +9,6 @@ namespace coupler {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr const char* participants[] = {"fem", "qdem"};
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -18,8 +17,12 @@ double seconds_since(Clock::time_point start) {
 }  // namespace
 
 void CoupledRun::exchange(proto::StateArchive& archive) {
+  // A run whose scheme was switched goes on with that one.
+  archive("switched_to", summary_.switched_to);
+  if (archive.restoring() && !summary_.switched_to.empty()) switch_scheme(proto::scheme_of(summary_.switched_to));
+  archive.expect_same("scheme/name", "the scheme", proto::name_of(input_.coupling.scheme));
   scheme_->exchange(archive);
-  audit_.exchange(archive);
+  judge_.exchange(archive);
   coupler::exchange(archive, summary_.seats);
   std::uint64_t hash = hash_.value();
   archive("interface_hash", hash);
@@ -55,7 +58,7 @@ void CoupledRun::save(std::int64_t window) {
   manifest.version = proto::project_version();
   manifest.source = proto::source_description();
   std::map<std::string, std::uint64_t> tickets;
-  for (const char* name : participants) tickets[name] = supervisor_.send(name, proto::Save{window, set.file(name)});
+  for (const auto& name : names_) tickets[name] = supervisor_.send(name, proto::Save{window, set.file(name)});
   for (const auto& [name, ticket] : tickets)
     manifest.hashes[name] = supervisor_.await<proto::Saved>(name, ticket, true).hash;
   record_->synchronise();
@@ -82,10 +85,10 @@ void CoupledRun::resume(const Checkpoint& set) {
                        "coupling.window_s", "time is counted in windows: run the changed case from its beginning");
   slots_.forget_later(set);
   std::map<std::string, std::uint64_t> tickets;
-  for (const char* name : participants)
+  for (const auto& name : names_)
     tickets[name] = supervisor_.send(name, proto::Restore{manifest.window, set.file(name), manifest.hashes.at(name)});
   for (const auto& [name, ticket] : tickets) supervisor_.await<proto::Restored>(name, ticket, true);
-  scheme_.emplace(input_.coupling.scheme, input_.coupling.window_s, 1, laws_);
+  scheme_ = make_scheme(input_.coupling.scheme, input_.coupling, {input_.coupling.window_s, 1, laws_});
   proto::StateReader own(set.file("coupler"), manifest.hashes.at("coupler"));
   exchange(own);
   record_.emplace(folder_.file("coupling.h5"), input_.seats, input_.coupling.window_s, record_attributes(), own);

@@ -95,6 +95,12 @@ void check_force_resultants(const std::string& side, const proto::SeatRegistrati
     }
 }
 
+std::vector<proto::FieldSpec>::const_iterator find_field(const proto::Interface& registered, const std::string& name,
+                                                         bool outgoing) {
+  return std::find_if(registered.fields.begin(), registered.fields.end(),
+                      [&](const auto& spec) { return spec.outgoing == outgoing && spec.name == name; });
+}
+
 double coefficient(const std::vector<double>& values, std::size_t i, const char* name, const std::string& where) {
   const double value = values[i];
   if (!(std::isfinite(value) && value >= 0.0))
@@ -117,11 +123,19 @@ void check_interface(const std::string& side, const proto::Interface& registered
   }
 }
 
+void check_taken_fields(const std::string& side, const proto::Interface& registered,
+                        const std::vector<std::string>& names, const std::string& user) {
+  for (const auto& name : names)
+    if (find_field(registered, name, false) == registered.fields.end())
+      throw proto::Error(proto::ExitCode::config,
+                         fmt::format("{} does not take the field '{}' that {} needs", side, name, user),
+                         "interface of " + side, "choose another scheme or participant; see proto/README.md, fields");
+}
+
 void check_outgoing_fields(const std::string& side, const proto::Interface& registered,
                            const std::vector<std::string>& names) {
   for (const auto& name : names) {
-    const auto found = std::find_if(registered.fields.begin(), registered.fields.end(),
-                                    [&](const auto& spec) { return spec.outgoing && spec.name == name; });
+    const auto found = find_field(registered, name, true);
     if (found == registered.fields.end())
       refuse(fmt::format("the field '{}' is not among those the participant gives", name), "interface of " + side);
     if (found->components != 3)

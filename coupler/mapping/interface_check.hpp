@@ -23,6 +23,10 @@ void check_interface(const std::string& side, const proto::Interface& registered
 void check_outgoing_fields(const std::string& side, const proto::Interface& registered,
                            const std::vector<std::string>& names);
 
+/// Throws proto::Error (config) unless `registered` takes (not outgoing) every field of `names`, which `user` needs.
+void check_taken_fields(const std::string& side, const proto::Interface& registered,
+                        const std::vector<std::string>& names, const std::string& user);
+
 /// The pad law of every interface value as the pad's owner registered it.
 /// Throws proto::Error (protocol) for a missing, negative or non-finite coefficient.
 std::vector<proto::PadLaw> registered_pad(const std::string& side, const proto::Interface& registered,

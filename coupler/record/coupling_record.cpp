@@ -24,21 +24,30 @@ constexpr SeatColumn seat_columns[] = {
     {"momentum_defect_sum", "N s", "sum of P since time 0"},
 };
 
+constexpr const char* moment_text = "moment of P about the seat's origin, summed over the cells, seat axes";
+
 std::vector<proto::Column> columns(const std::vector<proto::RailSeat>& seats) {
   std::vector<proto::Column> result{
       {"window", "1", "window number; -1: the initial values", {}},
       {"time", "s", "at the window's end", {}},
       {"energy_defect_sum", "J", "sum of D over all values since time 0", {}},
+      {"energy_defect_relative", "1", "largest |sum of D| so far over the sum of |W_rail| so far", {}},
+      {"momentum_defect_relative", "1", "largest |sum of P| so far over the largest seat's sum of |I| so far", {}},
+      {"moment_defect_relative", "1", "the same of moments about the seat, over that times the half-diagonal", {}},
+      {"solves", "1", "passes through the window", {}},
+      {"converged", "1", "0: an iteration that was accepted at its limit", {}},
       {"sub_cycles", "1", "steps of qdem in the window", {}},
       {"qdem_compute", "s", "wall time qdem computed in the window", {}},
       {"fem_compute", "s", "wall time fem computed in the window", {}},
   };
-  for (const auto& seat : seats)
+  for (const auto& seat : seats) {
+    result.push_back({"seats/" + seat.name + "/moment_defect", "N m s", moment_text, {3}});
     for (const auto& column : seat_columns)
       result.push_back({"seats/" + seat.name + "/" + column.name,
                         column.unit,
                         column.description,
                         {static_cast<std::size_t>(seat.n_cells()), 3}});
+  }
   return result;
 }
 
@@ -73,12 +82,20 @@ void CouplingRecord::put_seats(const std::string& name, const std::vector<double
   }
 }
 
+void CouplingRecord::put_moments(const std::vector<double>& values) {
+  for (std::size_t s = 0; s < seats_.size(); ++s)
+    file_->put("seats/" + seats_[s].name + "/moment_defect", proto::Span<const double>(values.data() + 3 * s, 3));
+}
+
 void CouplingRecord::add_initial(const InterfaceState& initial) {
   const std::vector<double> zero(momentum_defect_sum_.size(), 0.0);
   file_->put("window", -1.0);
-  for (const char* name : {"time", "energy_defect_sum", "sub_cycles", "qdem_compute", "fem_compute"})
+  for (const char* name : {"time", "energy_defect_sum", "energy_defect_relative", "momentum_defect_relative",
+                           "moment_defect_relative", "solves", "sub_cycles", "qdem_compute", "fem_compute"})
     file_->put(name, 0.0);
+  file_->put("converged", 1.0);
   for (const auto& column : seat_columns) put_seats(column.name, zero);
+  put_moments(std::vector<double>(3 * seats_.size(), 0.0));
   put_seats("rail_displacement", initial.rail_displacement);
   put_seats("rail_velocity", initial.rail_velocity);
   put_seats("sleeper_displacement", initial.sleeper_displacement);
@@ -88,11 +105,16 @@ void CouplingRecord::add_initial(const InterfaceState& initial) {
   file_->commit();  // from here on the file can be opened whatever happens
 }
 
-void CouplingRecord::add(const WindowRecord& record, const WindowAudit& audit) {
-  for (std::size_t i = 0; i < momentum_defect_sum_.size(); ++i) momentum_defect_sum_[i] += audit.momentum_defect[i];
+void CouplingRecord::add(const WindowRecord& record, const WindowAudit& defects, const Audit& audit) {
+  for (std::size_t i = 0; i < momentum_defect_sum_.size(); ++i) momentum_defect_sum_[i] += defects.momentum_defect[i];
   file_->put("window", static_cast<double>(record.window));
   file_->put("time", static_cast<double>(record.window + 1) * window_s_);
-  file_->put("energy_defect_sum", audit.energy_defect_sum);
+  file_->put("energy_defect_sum", defects.energy_defect_sum);
+  file_->put("energy_defect_relative", audit.energy_defect_relative());
+  file_->put("momentum_defect_relative", audit.momentum_defect_relative());
+  file_->put("moment_defect_relative", audit.moment_defect_relative());
+  file_->put("solves", record.solves);
+  file_->put("converged", record.converged ? 1.0 : 0.0);
   file_->put("sub_cycles", static_cast<double>(record.sub_cycles));
   file_->put("qdem_compute", record.explicit_compute_s);
   file_->put("fem_compute", record.implicit_compute_s);
@@ -103,10 +125,11 @@ void CouplingRecord::add(const WindowRecord& record, const WindowAudit& audit) {
   put_seats("force_robin", record.force_robin);
   put_seats("force_used", record.force_used);
   put_seats("impulse", record.impulse);
-  put_seats("work_rail", audit.work_rail);
-  put_seats("work_pad", audit.work_pad);
-  put_seats("energy_defect", audit.energy_defect);
-  put_seats("momentum_defect", audit.momentum_defect);
+  put_seats("work_rail", defects.work_rail);
+  put_seats("work_pad", defects.work_pad);
+  put_seats("energy_defect", defects.energy_defect);
+  put_seats("momentum_defect", defects.momentum_defect);
+  put_moments(defects.moment_defect);
   put_seats("momentum_defect_sum", momentum_defect_sum_);
   file_->end_row();
   ++n_rows_;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "coupler/scheme/audit.hpp"
+#include "coupler/scheme/scheme_state.hpp"
 #include "coupler/scheme/window_record.hpp"
-#include "coupler/scheme/window_scheme.hpp"
 #include "proto/case/rail_seat.hpp"
 #include "proto/result/time_series.hpp"
 
@@ -31,10 +31,11 @@ class CouplingRecord {
 
   /// All functions throw proto::Error (io_error) once a write has failed.
   void add_initial(const InterfaceState& initial);
-  void add(const WindowRecord& record, const WindowAudit& audit);
+  void add(const WindowRecord& record, const WindowAudit& defects, const Audit& audit);
   void close();
 
  private:
+  void put_moments(const std::vector<double>& values);
   void put_seats(const std::string& name, const std::vector<double>& values);
 
   std::vector<proto::RailSeat> seats_;

@@ -66,7 +66,16 @@ std::string summary_text(const Summary& s) {
                         {"fem_residual", s.rest.fem_residual}};
   root["interface"] = {{"energy_defect_relative", s.energy_defect_relative},
                        {"momentum_defect_relative", s.momentum_defect_relative},
+                       {"moment_defect_relative", s.moment_defect_relative},
                        {"hash", fmt::format("{:016x}", s.interface_hash)}};
+  root["observed"] = {{"passes_mean", s.observation.mean_solves()},
+                      {"passes_most", s.observation.state().most_solves},
+                      {"windows_not_converged", s.observation.state().n_unconverged},
+                      {"contraction", s.observation.contraction()},
+                      {"growth_per_window", s.observation.growth()},
+                      {"pad_law_deviation", s.observation.law_deviation()}};
+  if (!s.switched_to.empty()) root["switched_to"] = s.switched_to;
+  root["warnings"] = s.warnings;
   if (s.checkpoint_window >= 0) root["checkpoint"] = {{"window", s.checkpoint_window}};
   root["resumed"] = s.resumed;
   root["wall_s"] = {{"total", s.wall.total}, {"start_up", s.wall.start_up}, {"qdem", s.wall.qdem},

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupler/record/figures.hpp"
+#include "coupler/scheme/observation.hpp"
 #include "coupler/scheme/rest_watch.hpp"
 #include "proto/wire/messages.hpp"
 
@@ -30,7 +31,10 @@ struct Summary {
   std::uint64_t interface_hash = 0;     ///< InterfaceHash of all windows
   std::int64_t checkpoint_window = -1;  ///< of the newest set; -1: there is none
   int resumed = 0;                      ///< how often the run went on from a checkpoint
-  double energy_defect_relative = 0.0, momentum_defect_relative = 0.0;
+  double energy_defect_relative = 0.0, momentum_defect_relative = 0.0, moment_defect_relative = 0.0;
+  Observation observation{0, 0.0};
+  std::string switched_to;  ///< scheme that the audit switched to; "" if it did not
+  std::vector<std::string> warnings;
   WallTime wall;
   std::vector<SeatFigures> seats;
   std::vector<proto::Fact> facts;  ///< land under their dotted keys; never over a key of the coupler's own

@@ -33,25 +33,46 @@ ObservedOrder observed_order(const Refinement& quantity) {
   return result;
 }
 
-std::string order_table(const std::vector<ObservedOrder>& orders, const std::vector<double>& windows_s) {
-  std::string text = fmt::format("\nobserved orders, windows of {:g} s\n", fmt::join(windows_s, ", "));
+std::string ObservedOrder::order_text() const {
+  if (size == 0.0 && distances.back() == 0.0) return "zero";
+  if (!has_order()) return "the same at all levels";
+  return fmt::format("order {:.2f}", fmt::join(orders, ", "));
+}
+
+std::string order_table(const std::vector<ObservedOrder>& orders, const RefinedBy& by) {
+  std::string text = fmt::format("\nobserved orders, {} {:g}\n", by.name, fmt::join(by.values, ", "));
   for (const auto& order : orders) {
-    text += fmt::format("  {:<34} order {:.2f}   finest {:.4g} +- {:.1g} {}\n", order.name,
-                        fmt::join(order.orders, ", "), order.size, std::abs(order.error), order.unit);
+    text += fmt::format("  {:<34} {}   finest {:.4g}", order.name, order.order_text(), order.size);
+    text += order.has_order() ? fmt::format(" +- {:.1g} {}\n", std::abs(order.error), order.unit)
+                              : fmt::format(" {}\n", order.unit);
   }
   return text;
 }
 
-std::string order_csv(const std::vector<ObservedOrder>& orders, const std::vector<double>& windows_s) {
-  std::string text = "window_s";
+std::string order_csv(const std::vector<ObservedOrder>& orders, const RefinedBy& by) {
+  std::string text = by.name;
   for (const auto& order : orders) text += fmt::format(",{} [{}]", order.name, order.unit);
   text += "\n";
-  for (std::size_t l = 0; l + 1 < windows_s.size(); ++l) {
-    text += fmt::format("{:.17g}", windows_s[l]);
+  for (std::size_t l = 0; l + 1 < by.values.size(); ++l) {
+    text += fmt::format("{:.17g}", by.values[l]);
     for (const auto& order : orders) text += fmt::format(",{:.9g}", order.distances[l]);
     text += "\n";
   }
   return text;
+}
+
+std::string order_plot(const std::vector<ObservedOrder>& orders, const RefinedBy& by, double expected_order,
+                       const std::string& csv, const std::string& svg) {
+  std::string text = fmt::format(
+      "set terminal svg size 800,600\nset output '{}'\nset datafile separator ','\nset logscale xy\n"
+      "set format y '%.0e'\nset xlabel '{}'\nset ylabel 'distance to the next level, relative'\nset key left top\n"
+      "plot (x/{:g})**{:g} title 'order {:g}' dashtype 2",
+      svg, by.name, by.values.front(), expected_order, expected_order);
+  for (std::size_t i = 0; i < orders.size(); ++i)
+    if (orders[i].has_order())
+      text += fmt::format(", \\\n  '{}' skip 1 using 1:(${}/{:.9g}) with linespoints title '{}'", csv, i + 2,
+                          orders[i].distances.front(), orders[i].name);
+  return text + "\n";
 }
 
 }  // namespace coupler

@@ -34,6 +34,8 @@ std::string run_table(const Summary& s, const std::string& out) {
   text += "interface defects, relative\n";
   text += row("energy", fmt::format("{:>12.2e}", s.energy_defect_relative));
   text += row("momentum", fmt::format("{:>12.2e}", s.momentum_defect_relative));
+  text += row("moment", fmt::format("{:>12.2e}", s.moment_defect_relative));
+  text += "observed: " + s.observation.text() + "\n";
   text += fmt::format("results in {}\n", out);
   return text;
 }

@@ -5,11 +5,21 @@
 namespace coupler {
 
 proto::Result RemoteSide::advance(const proto::Advance& request) {
-  auto result = supervisor_.await<proto::Result>(name_, supervisor_.send(name_, request));
-  if (result.window != request.window || result.iteration != request.iteration || result.phase != request.phase)
+  begin(request);
+  return end();
+}
+
+void RemoteSide::begin(const proto::Advance& request) {
+  ticket_ = supervisor_.send(name_, request);
+  phase_ = request.phase, window_ = request.window, iteration_ = request.iteration;
+}
+
+proto::Result RemoteSide::end() {
+  auto result = supervisor_.await<proto::Result>(name_, ticket_);
+  if (result.window != window_ || result.iteration != iteration_ || result.phase != phase_)
     refuse(fmt::format("{} answered for window {} iteration {} instead of window {} iteration {}", name_, result.window,
-                       result.iteration, request.window, request.iteration));
-  if (request.phase == proto::Phase::initialise) check_residual(result.residual);
+                       result.iteration, window_, iteration_));
+  if (phase_ == proto::Phase::initialise) check_residual(result.residual);
   return result;
 }
 

@@ -48,7 +48,8 @@ std::vector<proto::Fact> model_facts(const RailModel& rail, const FemSettings& s
           fact("fem.section_centroid_m", section.centroid_height),
           fact("fem.section_inertia_vertical_m4", section.inertia_vertical),
           fact("fem.section_inertia_lateral_m4", section.inertia_lateral),
-          fact("fem.rail_mass_kg_per_m", section.area * settings.material.density)};
+          fact("fem.rail_mass_kg_per_m", section.area * settings.material.density),
+          fact("fem.seat_mass_kg", section.area * settings.material.density * settings.sleeper_spacing)};
 }
 
 FemParticipant::FemParticipant(FemCase input, std::string program, std::string name, const RailBuilder& build)

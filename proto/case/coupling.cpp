@@ -1,6 +1,5 @@
 #include "proto/case/coupling.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "proto/error.hpp"
@@ -47,6 +46,72 @@ Initialise read_initialise(const Section& section, double window_s) {
   return result;
 }
 
+Iteration read_iteration(const Section& section) {
+  Iteration result;
+  const auto acceleration = section.choice_or("acceleration", "iqn_ils", {"constant", "aitken", "iqn_ils"});
+  result.acceleration = acceleration == "constant" ? Iteration::Acceleration::constant
+                        : acceleration == "aitken" ? Iteration::Acceleration::aitken
+                                                   : Iteration::Acceleration::iqn_ils;
+  result.relaxation = section.number_or("relaxation", result.relaxation, Range::between(1e-3, 2.0));
+  result.force_tolerance = section.number_or("force_tolerance", result.force_tolerance, Range::positive());
+  result.displacement_tolerance =
+      section.number_or("displacement_tolerance", result.displacement_tolerance, Range::positive());
+  result.max_iterations =
+      static_cast<int>(section.integer_or("max_iterations", result.max_iterations, Range::between(1, 10000)));
+  result.accept_at_limit = section.choice_or("at_limit", "stop", {"stop", "accept"}) == "accept";
+  result.reused_windows =
+      static_cast<int>(section.integer_or("reused_windows", result.reused_windows, Range::between(0, 1000)));
+  result.filter = section.number_or("filter", result.filter, Range::between(0.0, 1.0));
+  return result;
+}
+
+OneWay read_one_way(const Section& section) {
+  OneWay result;
+  if (section.has("history")) result.history = section.existing_path("history");
+  if (section.has("support_stiffness_n_per_m"))
+    result.support_stiffness = section.numbers("support_stiffness_n_per_m", 3, Range::positive());
+  if (!result.history.empty() && !result.support_stiffness.empty())
+    section.fail("support_stiffness_n_per_m", "a recorded rail needs no support", "remove this key or history");
+  return result;
+}
+
+AuditLimits::Action read_action(const Section& section) {
+  const auto action = section.choice_or("action", "warn", {"report", "warn", "switch", "stop"});
+  return action == "report"   ? AuditLimits::Action::report
+         : action == "warn"   ? AuditLimits::Action::warn
+         : action == "switch" ? AuditLimits::Action::switch_scheme
+                              : AuditLimits::Action::stop;
+}
+
+AuditLimits read_audit(const Section& section, Scheme scheme) {
+  AuditLimits result;
+  result.energy = section.number_or("energy", result.energy, Range::positive());
+  result.momentum = section.number_or("momentum", result.momentum, Range::positive());
+  result.moment = section.number_or("moment", result.moment, Range::positive());
+  result.action = read_action(section);
+  result.work_scale = section.number_or("work_scale_j", 0.0, Range::not_negative());
+  result.impulse_scale = section.number_or("impulse_scale_n_s", 0.0, Range::not_negative());
+  const bool acts = result.action == AuditLimits::Action::switch_scheme || result.action == AuditLimits::Action::stop;
+  if (acts && !(result.work_scale > 0.0 && result.impulse_scale > 0.0))
+    section.fail("action", "a run can be judged on its way only by scales of work and impulse",
+                 "give work_scale_j and impulse_scale_n_s, say from the coupling.h5 of a run before");
+  result.switch_to = scheme_of(section.choice_or("switch_to", "R2", scheme_names()));
+  if (result.action == AuditLimits::Action::switch_scheme &&
+      (uses_robin(scheme) != uses_robin(result.switch_to) || is_rigid(scheme) != is_rigid(result.switch_to)))
+    section.fail("switch_to",
+                 name_of(scheme) + " and " + name_of(result.switch_to) + " load the rail in different ways",
+                 "R1 can switch to R2; E0, E1 and E2 to each other and to implicit");
+  return result;
+}
+
+AdvisorInput read_advisor(const Section& section) {
+  AdvisorInput result;
+  result.rail_mass = section.number_or("rail_mass_kg", 0.0, Range::not_negative());
+  result.sleeper_mass = section.number_or("sleeper_mass_kg", 0.0, Range::not_negative());
+  result.accept_unstable = section.boolean_or("accept_unstable", false);
+  return result;
+}
+
 CheckpointTimes read_checkpoint(const Section& section) {
   CheckpointTimes times;
   times.interval_windows = section.integer_or("interval_windows", 0, Range::between(0, most_windows));
@@ -56,36 +121,26 @@ CheckpointTimes read_checkpoint(const Section& section) {
 
 }  // namespace
 
-const std::vector<std::string>& scheme_names() {
-  static const std::vector<std::string> names{"R1", "R2", "E1", "E2"};  // in the order of the enumeration
-  return names;
-}
-
-const std::string& name_of(Scheme scheme) {
-  return scheme_names()[static_cast<std::size_t>(scheme)];
-}
-
-Scheme scheme_of(const std::string& name) {
-  const auto& names = scheme_names();
-  return static_cast<Scheme>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-bool uses_robin(Scheme scheme) {
-  return scheme == Scheme::robin_explicit || scheme == Scheme::robin_corrected;
-}
-
 Coupling read_coupling(const CaseFile& file) {
   const auto section = file.section("coupling");
   Coupling coupling;
   coupling.scheme = scheme_of(section.choice_or("scheme", "R1", scheme_names()));
   coupling.window_s = section.number_or("window_s", coupling.window_s, Range::positive());
   coupling.n_windows = read_window_count(section, coupling.window_s);
+  coupling.sub_cycle_factor = static_cast<int>(section.integer_or("sub_cycle_factor", 1, Range::between(1, 1000)));
   coupling.output_interval_s = section.number_or("output_interval_s", 0.0, Range::not_negative());
   coupling.connect_timeout_s = section.number_or("connect_timeout_s", coupling.connect_timeout_s, Range::positive());
   coupling.stall_timeout_s = section.number_or("stall_timeout_s", coupling.stall_timeout_s, Range::positive());
   coupling.qdem = read_participant(section, "qdem");
   coupling.fem = read_participant(section, "fem");
   coupling.initialise = read_initialise(section.section("initialise"), coupling.window_s);
+  coupling.prolongation = section.choice_or("prolongation", "linear", {"linear", "hermite"}) == "hermite"
+                              ? Prolongation::hermite
+                              : Prolongation::linear;
+  coupling.iteration = read_iteration(section.section("iteration"));
+  coupling.one_way = read_one_way(section.section("one_way"));
+  coupling.audit = read_audit(section.section("audit"), coupling.scheme);
+  coupling.advisor = read_advisor(section.section("advisor"));
   coupling.checkpoint = read_checkpoint(section.section("checkpoint"));
   section.finish();
   return coupling;

@@ -94,6 +94,9 @@ class Side : public Participant {
   }
 
  protected:
+  /// What the coupler judges the stability of its schemes by.
+  std::vector<Fact> mass_fact() const { return {{name_ + ".seat_mass_kg", now_.mass, ""}}; }
+
   /// What a restart needs, for both ways.
   void exchange(StateArchive& archive) {
     archive("displacement", kept_.displacement);
@@ -124,6 +127,43 @@ class Side : public Participant {
   std::uint64_t n_windows_ = 0;  ///< committed
 };
 
+/// What drives the sleeper over one window, s from 0 to 1: the rail through the pad, along a straight path or a cubic
+/// one where its slopes are given; or, in a rigid joint, a force that is linear in time.
+struct Drive {
+  bool joint, cubic;
+  double begin, end;                          ///< joint: force [N]; else displacement of the rail [m]
+  double slope_begin = 0.0, slope_end = 0.0;  ///< of the cubic path, times the window [m]
+  double window_s;
+
+  explicit Drive(const Advance& request)
+      : joint(request.data.has(field::joint_force)),
+        cubic(request.data.has(field::path_velocity)),
+        begin(normal_value(request, joint ? field::joint_force_begin : field::rail_displacement_begin)),
+        end(normal_value(request, joint ? field::joint_force : field::rail_displacement)),
+        window_s(request.window_s) {
+    if (!cubic) return;
+    slope_begin = window_s * normal_value(request, field::path_velocity_begin);
+    slope_end = window_s * normal_value(request, field::path_velocity);
+  }
+  static double normal_value(const Advance& request, const char* name) { return request.data.get(name)[normal]; }
+
+  double value(double s) const {
+    if (!cubic) return begin + (end - begin) * s;
+    const double r = 1.0 - s;
+    return r * r * ((1.0 + 2.0 * s) * begin + s * slope_begin) + s * s * ((3.0 - 2.0 * s) * end - r * slope_end);
+  }
+  double rate(double s) const {
+    if (!cubic) return (end - begin) / window_s;
+    const double r = 1.0 - s;
+    return (6.0 * s * r * (end - begin) + r * (1.0 - 3.0 * s) * slope_begin + s * (3.0 * s - 2.0) * slope_end) /
+           window_s;
+  }
+  /// On a sleeper at x that moves with v [N].
+  double force(const PadLaw& pad, double s, double x, double v) const {
+    return joint ? value(s) : pad.force(value(s) - x, rate(s) - v);
+  }
+};
+
 /// The sleeper's side: kick-drift-kick steps under the pad force, along the rail's linear path.
 class ExplicitSide : public Side {
  public:
@@ -140,6 +180,10 @@ class ExplicitSide : public Side {
     }
     return {{{field::rail_displacement_begin, "m", 3, false},
              {field::rail_displacement, "m", 3, false},
+             {field::path_velocity_begin, "m/s", 3, false},
+             {field::path_velocity, "m/s", 3, false},
+             {field::joint_force_begin, "N", 3, false},
+             {field::joint_force, "N", 3, false},
              {field::impulse, "N s", 3, true},
              {field::pad_work, "J", 3, true},
              {field::sleeper_displacement, "m", 3, true},
@@ -153,7 +197,7 @@ class ExplicitSide : public Side {
     window_s_ = request.window_s;
     const PadLaw pad = seat_.cell_law(normal);
     const double frequency = std::sqrt((now_.stiffness + pad.stiffness) / now_.mass);
-    Configured configured;
+    Configured configured{{}, mass_fact(), {}};
     if (now_.largest_step > 0.0) configured.largest_step_s = now_.largest_step;
     if (frequency == 0.0) return configured;
     const double ratio = pad.damping / (2.0 * now_.mass * frequency);
@@ -169,26 +213,25 @@ class ExplicitSide : public Side {
   }
 
   FieldSet advance(const Advance& request, Progress& progress) override {
-    const double u0 = request.data.get(field::rail_displacement_begin)[normal];
-    const double u1 = request.data.get(field::rail_displacement)[normal];
     const double step = request.window_s / request.sub_cycles;
-    const double rail_velocity = (u1 - u0) / request.window_s, rail_step = (u1 - u0) / request.sub_cycles;
     const PadLaw pad = seat_.cell_law(normal);
+    const Drive drive(request);
     double& x = now_.displacement;
     double& v = now_.velocity;
-    double force = pad.force(u0 - x, rail_velocity - v);
+    double force = drive.force(pad, 0.0, x, v);
     double impulse = 0.0, work = 0.0;
+    window_s_ = request.window_s;
     for (std::uint32_t j = 1; j <= request.sub_cycles; ++j) {
+      const double s = static_cast<double>(j) / request.sub_cycles, x_before = x, before = force;
+      const double rail_step = drive.value(s) - drive.value(static_cast<double>(j - 1) / request.sub_cycles);
       const double acceleration = (force - now_.stiffness * x) / now_.mass;
       const double half_kicked = v + 0.5 * step * acceleration;
       x += step * half_kicked;
       // The dashpot acts at the force's own time level, hence on the predicted end velocity: second order.
-      const double predicted = v + step * acceleration;
-      const double before = force;
-      force = pad.force(u0 + j * rail_step - x, rail_velocity - predicted);
+      force = drive.force(pad, s, x, v + step * acceleration);
       v = half_kicked + 0.5 * step * (force - now_.stiffness * x) / now_.mass;
       impulse += 0.5 * step * (before + force);  // exactly what the two half-kicks gave the mass
-      work += 0.5 * (before + force) * rail_step;
+      work += 0.5 * (before + force) * (drive.joint ? x - x_before : rail_step);
       progress.bump();
     }
     FieldSet data;
@@ -216,6 +259,8 @@ class ImplicitSide : public Side {
              {field::sleeper_mean_velocity, "m/s", 3, false},
              {field::force_carry, "N", 3, false},
              {field::force_mean, "N", 3, false},
+             {field::joint_force_begin, "N", 3, false},
+             {field::joint_force, "N", 3, false},
              {field::rail_displacement, "m", 3, true},
              {field::rail_velocity, "m/s", 3, true},
              {field::force_robin, "N", 3, true},
@@ -228,7 +273,7 @@ class ImplicitSide : public Side {
     mode_ = request.mode;
     pad_ = {request.stiffness.at(normal), request.damping.at(normal), request.preload.at(normal),
             request.tension_cutoff.at(normal)};
-    return {};
+    return {{}, mass_fact(), {}};
   }
 
   FieldSet start() override {
@@ -239,9 +284,13 @@ class ImplicitSide : public Side {
 
   FieldSet advance(const Advance& request, Progress& progress) override {
     const double h = request.window_s;
+    window_s_ = h;
     FieldSet data;
     if (mode_ == LoadMode::prescribed_force) {
-      const double force = request.data.get(field::force_mean)[normal];
+      const bool joint = request.data.has(field::joint_force);
+      const double force = joint ? 0.5 * (request.data.get(field::joint_force_begin)[normal] +
+                                          request.data.get(field::joint_force)[normal])
+                                 : request.data.get(field::force_mean)[normal];
       solve(h, 0.0, 0.0, -force);
       data.set(field::force_used, along_normal(force));
     } else {

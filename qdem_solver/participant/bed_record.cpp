@@ -25,9 +25,9 @@ BedRecord::BedRecord(TrackBed& bed, EnergyWatch& energy, RecordSettings settings
   const auto& attributes = settings_.attributes;
   exchange_counts(saved);
   if (settings_.output_interval > 0) {
-    fields_ = FieldsFile::resume(folder + "/qdem.h5", bed.model(), start(), attributes, n_outputs_);
+    fields_.emplace(FieldsFile::resume(folder + "/qdem.h5", bed.model(), start(), attributes, n_outputs_));
     if (bed.settings().contact_output)
-      contacts_ = ContactsFile::resume(folder + "/contacts.h5", attributes, n_contact_rows_);
+      contacts_.emplace(ContactsFile::resume(folder + "/contacts.h5", attributes, n_contact_rows_));
   }
   const SensorsSettings& sensors = bed.settings().sensors;
   if (!sensors.list.empty())

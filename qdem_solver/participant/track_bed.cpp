@@ -112,6 +112,7 @@ std::vector<proto::Fact> TrackBed::facts() const {
   add("qdem.step_bound_s", step_bound_);
   add("qdem.largest_step_s", largest_step_);
   add("qdem.damping_step_factor", bound_->viscosity_factor(bed_.state, engine_->contacts(), touching_gap()));
+  add("qdem.seat_mass_kg", bed_.model.body_mass(bed_.model.pad_body) / static_cast<double>(seats_.size()));
   add("qdem.threads", settings_.threads > 0 ? settings_.threads : omp_get_max_threads());
   add_layers(facts);
   return facts;

@@ -28,6 +28,8 @@ struct OscillatorCase {
   double window_s = 0.025, duration_s = 4.0;
   double largest_step_s = 0.0;  ///< of the explicit side; 0: its own bound
   double initial_displacement_m = 1.0;
+  double pad_damping_ns_per_m = 0.2;
+  double sleeper_displacement_m = -0.5, sleeper_velocity_m_per_s = 0.3;
   std::string qdem_command = R"(["oscillator_participant", "participant", "--side", "explicit"])";
   std::string fem_command = R"(["oscillator_participant", "participant", "--side", "implicit"])";
   std::string more_coupling;  ///< further lines of [coupling]
@@ -39,11 +41,12 @@ struct OscillatorCase {
       << "\nqdem_command = " << qdem_command << "\nfem_command = " << fem_command << "\n"
       << more_coupling << "\n[[rail_seat]]\nname = \"seat\"\norigin_m = [0.0, 0.0, 0.0]\n"
       << "half_lengths_m = [0.1, 0.1]\ncells = [1, 1]\nstiffness_n_per_m = [0.0, 0.0, 10.0]\n"
-      << "damping_ns_per_m = [0.0, 0.0, 0.2]\n"
+      << "damping_ns_per_m = [0.0, 0.0, " << pad_damping_ns_per_m << "]\n"
       << "[oscillator.implicit]\nmass_kg = 1.0\nground_stiffness_n_per_m = 1.0\ninitial_displacement_m = "
       << initial_displacement_m << "\ninitial_velocity_m_per_s = 0.0\n"
-      << "[oscillator.explicit]\nmass_kg = 0.5\nground_stiffness_n_per_m = 4.0\ninitial_displacement_m = -0.5\n"
-      << "initial_velocity_m_per_s = 0.3\nlargest_step_s = " << largest_step_s << "\n";
+      << "[oscillator.explicit]\nmass_kg = 0.5\nground_stiffness_n_per_m = 4.0\ninitial_displacement_m = "
+      << sleeper_displacement_m << "\ninitial_velocity_m_per_s = " << sleeper_velocity_m_per_s
+      << "\nlargest_step_s = " << largest_step_s << "\n";
     return s.str();
   }
 };

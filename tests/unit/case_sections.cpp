@@ -107,6 +107,45 @@ TEST(Coupling, limits_of_rest_are_read) {
   EXPECT_EQ(limits.fem_residual_limit, 0.01);
 }
 
+TEST(Coupling, keys_of_the_schemes_are_read) {
+  const CaseText file(
+      "[coupling]\nduration_s = 0.08\nscheme = \"implicit\"\nprolongation = \"hermite\"\nsub_cycle_factor = 3\n"
+      "[coupling.iteration]\nacceleration = \"aitken\"\nrelaxation = 0.3\nforce_tolerance = 1e-8\n"
+      "displacement_tolerance = 1e-9\nmax_iterations = 7\nat_limit = \"accept\"\nreused_windows = 2\nfilter = 0.1\n"
+      "[coupling.one_way]\nsupport_stiffness_n_per_m = [1e6, 2e6, 3e6]\n"
+      "[coupling.audit]\nenergy = 0.1\nmomentum = 0.2\nmoment = 0.3\naction = \"switch\"\nswitch_to = \"E1\"\n"
+      "work_scale_j = 5.0\nimpulse_scale_n_s = 6.0\n"
+      "[coupling.advisor]\nrail_mass_kg = 36.0\nsleeper_mass_kg = 150.0\naccept_unstable = true\n");
+  const auto c = read_coupling(file.load());
+  EXPECT_EQ(c.scheme, Scheme::implicit);
+  EXPECT_EQ(c.prolongation, Prolongation::hermite);
+  EXPECT_EQ(c.sub_cycle_factor, 3);
+  EXPECT_EQ(c.iteration.acceleration, Iteration::Acceleration::aitken);
+  EXPECT_EQ(c.iteration.relaxation, 0.3);
+  EXPECT_EQ(c.iteration.force_tolerance, 1e-8);
+  EXPECT_EQ(c.iteration.displacement_tolerance, 1e-9);
+  EXPECT_EQ(c.iteration.max_iterations, 7);
+  EXPECT_TRUE(c.iteration.accept_at_limit);
+  EXPECT_EQ(c.iteration.reused_windows, 2);
+  EXPECT_EQ(c.iteration.filter, 0.1);
+  EXPECT_EQ(c.one_way.support_stiffness, (std::vector<double>{1e6, 2e6, 3e6}));
+  EXPECT_EQ(c.audit.energy, 0.1);
+  EXPECT_EQ(c.audit.momentum, 0.2);
+  EXPECT_EQ(c.audit.moment, 0.3);
+  EXPECT_EQ(c.audit.action, AuditLimits::Action::switch_scheme);
+  EXPECT_EQ(c.audit.switch_to, Scheme::serial_staggered);
+  EXPECT_EQ(c.audit.work_scale, 5.0);
+  EXPECT_EQ(c.audit.impulse_scale, 6.0);
+  EXPECT_EQ(c.advisor.rail_mass, 36.0);
+  EXPECT_EQ(c.advisor.sleeper_mass, 150.0);
+  EXPECT_TRUE(c.advisor.accept_unstable);
+}
+
+TEST(Coupling, schemes_go_by_their_names) {
+  for (const auto& name : scheme_names()) EXPECT_EQ(name_of(scheme_of(name)), name);
+  EXPECT_EQ(scheme_names().size(), static_cast<std::size_t>(Scheme::rigid_per_window) + 1);
+}
+
 TEST(Coupling, bad_values_are_refused) {
   const auto refusal = [](const std::string& text) {
     const CaseText file("[coupling]\n" + text);
@@ -125,6 +164,17 @@ TEST(Coupling, bad_values_are_refused) {
       refusal("duration_s = 1\n[coupling.initialise]\nmax_windows = 40\n"),
       "rest is judged over the last 40 windows - case.toml:4:15: coupling.initialise.max_windows - allow more than "
       "check_windows");
+  EXPECT_EQ(
+      refusal("duration_s = 1\n[coupling.audit]\naction = \"stop\"\n"),
+      "a run can be judged on its way only by scales of work and impulse - case.toml:4:10: coupling.audit.action - "
+      "give work_scale_j and impulse_scale_n_s, say from the coupling.h5 of a run before");
+  EXPECT_EQ(
+      refusal("duration_s = 1\n[coupling.audit]\naction = \"switch\"\nswitch_to = \"E2\"\nwork_scale_j = 1\n"
+              "impulse_scale_n_s = 1\n"),
+      "R1 and E2 load the rail in different ways - case.toml:5:13: coupling.audit.switch_to - R1 can switch to R2; "
+      "E0, E1 and E2 to each other and to implicit");
+  EXPECT_EQ(refusal("duration_s = 1\n[coupling.iteration]\nmax_iteration = 5\n"),
+            "unknown key - case.toml:4:1: coupling.iteration.max_iteration - did you mean 'max_iterations'?");
   EXPECT_EQ(refusal("duration_s = 1\n[coupling.initialise]\ntolerence = 5\n"),
             "unknown key - case.toml:4:1: coupling.initialise.tolerence - did you mean 'tolerance'?");
 }

@@ -32,10 +32,24 @@ TEST(ObservedOrder, IsThatOfTheSequence) {
   }
 }
 
-TEST(ObservedOrder, TableAndCsvNameEveryQuantity) {
+TEST(ObservedOrder, TableCsvAndPlotNameEveryQuantity) {
   const std::vector<coupler::ObservedOrder> orders{coupler::observed_order(sequence(2.0))};
-  const std::vector<double> windows{1.0, 0.5, 0.25, 0.125};
-  EXPECT_NE(coupler::order_table(orders, windows).find("order 2.00, 2.00"), std::string::npos);
-  const auto csv = coupler::order_csv(orders, windows);
-  EXPECT_EQ(csv.find("window_s,q [m]\n1,"), 0u) << csv;
+  const coupler::RefinedBy by{"window [s]", {1.0, 0.5, 0.25, 0.125}};
+  EXPECT_NE(coupler::order_table(orders, by).find("order 2.00, 2.00"), std::string::npos);
+  const auto csv = coupler::order_csv(orders, by);
+  EXPECT_EQ(csv.find("window [s],q [m]\n1,"), 0u) << csv;
+  const auto plot = coupler::order_plot(orders, by, 2.0, "a.csv", "a.svg");
+  EXPECT_NE(plot.find("set output 'a.svg'"), std::string::npos);
+  EXPECT_NE(plot.find("'a.csv' skip 1 using 1:($2/"), std::string::npos) << plot;
+}
+
+TEST(ObservedOrder, WhatDoesNotChangeHasNone) {
+  coupler::Refinement zero{"z", "m", {{0, 0}, {0, 0}, {0, 0}}}, same{"s", "m", {{1, 2}, {1, 2}, {1, 2 + 1e-15}}};
+  const auto none = coupler::observed_order(zero), round_off = coupler::observed_order(same);
+  EXPECT_FALSE(none.has_order());
+  EXPECT_EQ(none.order_text(), "zero");
+  EXPECT_FALSE(round_off.has_order());
+  EXPECT_EQ(round_off.order_text(), "the same at all levels");
+  const auto table = coupler::order_table({none, round_off}, {"window [s]", {1, 0.5, 0.25}});
+  EXPECT_EQ(table.find("nan"), std::string::npos) << table;
 }
