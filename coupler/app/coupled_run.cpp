@@ -230,6 +230,7 @@ MarchEnd CoupledRun::march(std::optional<Clock::time_point> deadline) {
   for (auto n = next_window_; n < n_windows; n = next_window_) {
     if (const auto end = early_end(deadline); end != MarchEnd::complete) {
       if (can_save_ && n > 0) save(n - 1);
+      supervisor_.set_stage(fmt::format("window {}", n));
       return end;
     }
     supervisor_.set_stage(fmt::format("window {}", n));

@@ -28,7 +28,7 @@ contact_output = true
 [qdem.run]
 duration_s = 0.06
 output_interval_s = 2e-3
-[qdem.run.load]
+[[qdem.run.load]]
 kind = "half_sine"
 peak_n = 4000
 duration_s = 8e-3

@@ -53,8 +53,7 @@ TEST_P(Scheme, LetsThePadGo) {
   tests::OscillatorCase variant;
   variant.scheme = GetParam();
   const auto loose = [](std::string text) {
-    const std::string damping = "damping_ns_per_m = [0.0, 0.0, 0.2]\n";
-    return text.insert(text.find(damping), "tension_cutoff = true\nclip_preload_n = 2.0\n");
+    return text.insert(text.find("damping_ns_per_m = "), "tension_cutoff = true\nclip_preload_n = 2.0\n");
   };
   const auto tied = run(variant.text()).at("oscillator").at("implicit").at("x").get<double>();
   const auto free = run(loose(variant.text())).at("oscillator").at("implicit").at("x").get<double>();
