@@ -5,8 +5,13 @@ const scalable = new Set(['m', 's', 'N', 'Pa', 'J', 'm/s', 'm/s2', 'N s', 'W']);
 
 const pretty = (unit) => unit.replace(/m\/s2/g, 'm/s²').replace(/\^2/g, '²').replace(/m3/g, 'm³').replace(/ s$/, '·s');
 
-/** { factor, label }: value * factor is in `label`, for values up to `largest`. */
+/** { factor, label }: value * factor is in `label`, for values up to `largest`. A density becomes one of the scaled unit. */
 export function scaled(unit, largest) {
+  const [, root] = /^\((.+)\)\^2\/Hz$/.exec(unit) ?? [];
+  if (root) {
+    const { factor, label } = scaled(root, Math.sqrt(largest));
+    return { factor: factor * factor, label: `(${label})²/Hz` };
+  }
   if (unit === '1' || unit === '') return { factor: 1, label: '' };
   if (!scalable.has(unit) || !(largest > 0)) return { factor: 1, label: pretty(unit) };
   const [size, prefix] = prefixes.find(([candidate]) => largest >= candidate) ?? [1, ''];
