@@ -67,10 +67,14 @@ function picture(u, title) {
   return canvas;
 }
 
-function axis(label, side) {
+const isDecade = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
+
+function axis(label, side, logarithmic) {
   const colour = () => theme('--muted');
   const grid = { stroke: () => theme('--grid'), width: 1 };
-  return { label, labelSize: 22, labelFont: '12px system-ui', font: '12px system-ui', size: side === 'y' ? 64 : 36, stroke: colour, grid, ticks: grid };
+  if (logarithmic) grid.filter = (u, splits) => splits.map((value) => (isDecade(value) ? value : null));
+  return { label, labelSize: 22, labelFont: '12px system-ui', font: '12px system-ui', size: side === 'y' ? 64 : 36, stroke: colour, grid, ticks: grid,
+    values: (u, splits) => splits.map((value) => (value === null ? '' : short(value))) };
 }
 
 /** Rows without a repeated or unordered abscissa; what is not positive is left out of a logarithmic scale. */
@@ -121,7 +125,7 @@ function options(chart, width, x, y) {
     scales: { x: { time: false }, y: { distr: chart.logarithmic ? 3 : 1, range: range(chart.logarithmic) } },
     series: [{ label: words(chart.x.name), value: (u, value) => (value === null ? '–' : `${short(value)} ${x.label}`) }, ...series],
     bands: (chart.bands ?? []).map((pair) => ({ series: [pair.high + 1, pair.low + 1], fill: () => `${seriesColour(pair.colour)}2a` })),
-    axes: [axis(`${words(chart.x.name)}${x.label ? ` [${x.label}]` : ''}`, 'x'), axis(y.label ? `[${y.label}]` : chart.quantity ?? '', 'y')],
+    axes: [axis(`${words(chart.x.name)}${x.label ? ` [${x.label}]` : ''}`, 'x'), axis(y.label ? `[${y.label}]` : (chart.quantity ?? '').length < 30 ? chart.quantity ?? '' : '', 'y', chart.logarithmic)],
     cursor: { sync: { key: chart.x.name }, drag: { x: true, y: false } },
     legend: { live: true },
     plugins: isTime ? [timeMarker(x.factor)] : [],

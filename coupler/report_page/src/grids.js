@@ -4,15 +4,24 @@ import { colours, css, isLight } from './colour_map.js';
 import { button, fileName, h, saveCanvas, saveText, theme } from './dom.js';
 import { largest, scaled, short, withUnit, words } from './units.js';
 
-/** A table of a few rows. */
+const mostColumns = 6;
+
+/** A table of a few rows; one of many columns lies on its side. */
 export function dataTable(table, title) {
-  const units = table.columns.map((column) => scaled(column.unit, largest(column.values)));
-  const head = table.columns.map((column, c) => h('th', { scope: 'col' }, `${words(column.name)}${units[c].label ? ` [${units[c].label}]` : ''}`));
-  const rows = Array.from(table.columns[0].values.keys(), (row) => h('tr', {}, table.columns.map((column, c) => h('td', {}, short(column.values[row] * units[c].factor)))));
-  return h('figure', { class: 'chart wide' },
+  const cells = table.columns.map((column) => {
+    const { factor, label } = scaled(column.unit, largest(column.values));
+    return { name: `${words(column.name)}${label ? ` [${label}]` : ''}`, values: Array.from(column.values, (value) => short(value * factor)) };
+  });
+  const row = (children) => h('tr', {}, children);
+  const upright = () => [
+    h('thead', {}, row(cells.map(({ name }) => h('th', { scope: 'col' }, name)))),
+    h('tbody', {}, cells[0].values.map((_, i) => row(cells.map(({ values }) => h('td', {}, values[i]))))),
+  ];
+  const lying = () => h('tbody', {}, cells.map(({ name, values }) => row([h('th', { scope: 'row' }, name), ...values.map((value) => h('td', {}, value))])));
+  return h('figure', { class: 'chart' },
     h('figcaption', {}, h('span', { class: 'title' }, title),
       h('span', { class: 'tools' }, button('CSV', () => saveText(csv(table.columns), fileName(title, 'csv')), { 'aria-label': `Save ${title} as CSV` }))),
-    h('div', { class: 'scroll', tabindex: '0' }, h('table', {}, h('thead', {}, h('tr', {}, head)), h('tbody', {}, rows))));
+    h('div', { class: 'scroll', tabindex: '0' }, h('table', {}, cells.length > mostColumns ? lying() : upright())));
 }
 
 /** Pressure on the cells of a bottom: along the track to the right, across it upwards. */

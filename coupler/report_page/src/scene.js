@@ -104,7 +104,7 @@ export class Scene {
       const low = this.box.min[axis], high = this.box.max[axis];
       this.plane.normal.set(...axes[axis]).negate();
       this.plane.constant = low + share * (high - low);
-      if (axis === 'y') {  // towards the viewer is cut away
+      if (axis !== 'z') {  // what lies on the viewer's side of the first picture is cut away
         this.plane.normal.negate();
         this.plane.constant = -this.plane.constant;
       }

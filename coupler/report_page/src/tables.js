@@ -18,8 +18,8 @@ const sections = [
 const folded = new Set(['Amplitude spectra', 'Spectral densities (Welch)', 'Audit of the interface, computing time']);
 
 const titles = [
-  [/^history_seat_(.*)/, 'Rail seat $1'],
-  [/^history_sensor_(.*)/, 'Sensor $1'],
+  [/^history_seat_(.*)/, 'Rail seat “$1”'],
+  [/^history_sensor_(.*)/, 'Sensor “$1”'],
   [/^history_(.*)/, '$1'],
   [/^amplitude_(?:seat_|sensor_)?(.*)/, 'Amplitudes, $1'],
   [/^density_(?:seat_|sensor_)?(.*)/, 'Density, $1'],
@@ -29,8 +29,8 @@ const titles = [
 ];
 
 function title(name) {
-  for (const [pattern, text] of titles) if (pattern.test(name)) return words(name.replace(pattern, text));
-  return words(name).replace(/^./, (c) => c.toUpperCase());
+  const [pattern, text] = titles.find(([candidate]) => candidate.test(name)) ?? [/^/, ''];
+  return words(name.replace(pattern, text)).replace(/^./, (c) => c.toUpperCase());
 }
 
 /** "force on sleeper", "displacement x, y, z" */
@@ -49,10 +49,10 @@ function csvOf(tables) {
 
 /** Columns of one unit, apart where they differ so much in size that one would be a line at zero. */
 function bySize(columns) {
-  const groups = [];
+  const groups = [], most = columns[0].unit === '1' ? 1.3 : 2.5;  // decades
   for (const column of columns) {
     const size = largest(column.values);
-    const group = groups.find((one) => size === 0 || one.size === 0 || Math.abs(Math.log10(size / one.size)) < 2.5);
+    const group = groups.find((one) => size === 0 || one.size === 0 || Math.abs(Math.log10(size / one.size)) < most);
     if (group) group.columns.push(column), group.size = Math.max(group.size, size);
     else groups.push({ size, columns: [column] });
   }
@@ -90,14 +90,14 @@ function transferCharts(tables) {
     lines.push({ label, x, y: mean, colour, run });
     if (tables.length === 1) {
       lines.push({ label: `${label}, upper`, x, y: mean.map((m, i) => m + spread[i]), helper: true });
-      lines.push({ label: `${label}, lower`, x, y: mean.map((m, i) => Math.max(m - spread[i], 1e-6 * m)), helper: true });
+      lines.push({ label: `${label}, lower`, x, y: mean.map((m, i) => Math.max(m - spread[i], 0.1 * m)), helper: true });
       bands.push({ high: lines.length - 2, low: lines.length - 1, colour });
     }
     coherence.push({ label, x, y: column(`${bin}_coherence`), colour, run });
   }));
   const common = { x: first.columns[0], unit: '1', csv: csvOf(tables) };
   return [
-    chartFigure({ ...common, title: 'T(f,z): stone over sleeper', quantity: 'T', lines, bands, logarithmic: true, note: 'Mean over the stones of a depth bin; the bands are plus and minus one standard deviation.' }),
+    chartFigure({ ...common, title: 'T(f,z): stone over sleeper', quantity: 'T', lines, bands, logarithmic: true, note: 'Mean over the stones of a depth bin; the bands are one standard deviation up and down, not below a tenth of the mean.' }),
     chartFigure({ ...common, title: 'T(f,z): coherence', quantity: 'coherence', lines: coherence, note: 'Share of the power that follows the sleeper linearly; biased upwards with few averages.' }),
     ...lineCharts(tables.map((table) => ({ ...table, columns: table.columns.filter((column) => !/^bin_/.test(column.name)) })), { logarithmic: true }),
   ];
