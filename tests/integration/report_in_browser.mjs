@@ -146,6 +146,16 @@ async function buttonsSave(page) {
   }
 }
 
+async function chartSetsTheTime(page) {
+  const time = () => page.locator('output.time').textContent();
+  const plot = page.locator('figure', { hasText: 'Rail seat' }).first().locator('.u-over'), before = await time();
+  await plot.scrollIntoViewIfNeeded();
+  const { width, height } = await plot.boundingBox();
+  await plot.click({ position: { x: 0.25 * width, y: 0.5 * height } });
+  assert.notEqual(await time(), before, 'a click in a chart sets the time of the view');
+  assert.ok(await plot.locator('.now').isVisible(), 'and the chart marks it');
+}
+
 async function everyChartIsDrawn(page) {
   await page.evaluate(() => { for (const one of document.querySelectorAll('details')) one.open = true; });
   await page.setViewportSize({ width: 1280, height: 30000 });
@@ -192,6 +202,7 @@ try {
   await viewMoves(page);
   await pickShowsAHistory(page);
   await buttonsSave(page);
+  await chartSetsTheTime(page);
   await page.locator('#view').scrollIntoViewIfNeeded();
   await page.screenshot({ path: path.join(pictures, 'report_view.png') });
   await keyboardReachesEverything(await open(reportFile));
