@@ -53,6 +53,18 @@ house_test(analysis_run_test integration SOURCES integration/analysis_run.cpp
            LIBRARIES coupler::study coupler::record qdem::participant TIMEOUT 120)
 add_dependencies(analysis_run_test coupler)
 
+house_test(report_page_test unit SOURCES unit/report_page.cpp LIBRARIES coupler::page)
+find_program(NODE node)
+house_test(report_browser_test integration SOURCES integration/report_browser.cpp
+           LIBRARIES nlohmann_json::nlohmann_json TIMEOUT 300)
+target_compile_definitions(report_browser_test
+                           PRIVATE HOUSE_NODE="${NODE}"
+                                   HOUSE_REPORT_MODULES="${PROJECT_BINARY_DIR}/coupler/report_page/node_modules")
+add_dependencies(report_browser_test coupler qdem_solver fem_solver)
+if(TARGET report_page)
+  add_dependencies(report_browser_test report_page)
+endif()
+
 # The whole chain; the first test builds the bed of the quick case.
 house_test(wheel_passage_test integration ALONE SOURCES integration/wheel_passage.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 1500)

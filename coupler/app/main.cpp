@@ -68,6 +68,14 @@ int command_line(int argc, char** argv) {
   converge->add_option("--levels", n_levels, "number of runs")->check(CLI::Range(3, 12))->capture_default_str();
   coupler::AnalyzeOptions analysis;
   const auto* analyze = coupler::add_analyze_command(app, analysis);
+  coupler::ReportOptions page;
+  auto* report = app.add_subcommand("report", "write one HTML page of a run, or of several to compare");
+  report->add_option("DIR", page.folders, "output folders of runs")->required();
+  report->add_option("--out", page.out,
+                     "file (default: report.html, of several runs comparison.html, in the first DIR)");
+  report->add_option("--size-limit", page.size_limit_mb, "largest size of the page [MB]")
+      ->check(CLI::Range(1.0, 500.0))
+      ->capture_default_str();
   auto* check = add_command("check", "validate a case without running it");
   try {
     app.parse(argc, argv);
@@ -78,6 +86,7 @@ int command_line(int argc, char** argv) {
     return code == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
   }
   if (analyze->parsed()) return coupler::analyze_run(analysis);
+  if (report->parsed()) return coupler::report_runs(page);
   if (converge->parsed()) return coupler::converge_case(options, n_levels);
   if (check->parsed()) return coupler::check_case(options);
   return options.resume.empty() ? coupler::run_case(options) : coupler::resume_run(options);

@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "coupler/study/options.hpp"
 
@@ -46,9 +47,19 @@ struct AnalyzeOptions {
   study::Options study;
 };
 
-/// Analyses a run, writes analysis.h5 and CSV files, prints the figures. Returns 0. Throws proto::Error (usage, missing_input,
-/// bad_data, cannot_create, io_error); an analysis whose records are missing is a note, not an error.
+/// Analyses a run, writes analysis.h5 and CSV files, prints the figures. Returns 0. Throws proto::Error (usage,
+/// missing_input, bad_data, cannot_create, io_error); an analysis whose records are missing is a note, not an error.
 int analyze_run(const AnalyzeOptions& options);
+
+struct ReportOptions {
+  std::vector<std::string> folders;  ///< of runs; the first one is shown in 3-D
+  std::string out;                   ///< empty: report.html in the first folder; of several: comparison.html there
+  double size_limit_mb = 30.0;       ///< of the page; fields and long tables are thinned to it
+};
+
+/// Writes the page. Returns 0. Throws proto::Error: missing_input (no such run; a build without the page), bad_data,
+/// cannot_create, io_error.
+int report_runs(const ReportOptions& options);
 
 /// Validates the case: the coupler's own and the common sections, then each participant's `check`.
 /// Returns 0, or the exit code of the participant that refused (which has said why on stderr). Throws proto::Error.

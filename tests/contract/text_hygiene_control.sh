@@ -21,6 +21,7 @@ plant 'int a;\r\n' 'a carriage return'
 plant 'int a;' 'newline'
 plant '// TODO: b\n' 'a note to self'
 plant 'auto path = "/root/x";\n' 'a path of one machine'
+plant '"resolved": "x"\n' 'the address of a download'
 plant "$(printf '\\n%.0s' {1..451})" 'longer than'
 printf 'int a;\n' >"$tree/a.cpp"
 bash "$here/text_hygiene.sh" "$tree"

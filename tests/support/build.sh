@@ -13,6 +13,8 @@ house_packages=(
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libuv1-dev nlohmann-json3-dev
   libgtest-dev gnuplot-nox python3-zmq python3-flatbuffers python3-xxhash
 )
+# npm makes the page of the reports; where it comes from elsewhere, Debian's is not asked for.
+command -v npm >/dev/null || house_packages+=(nodejs npm)
 
 house_say() { printf '%s\n' "$*" >&2; }
 
