@@ -10,6 +10,7 @@
 
 #include "coupler/study/run_files.hpp"
 #include "proto/case/case_file.hpp"
+#include "proto/case/coupling.hpp"
 #include "proto/error.hpp"
 #include "proto/result/provenance.hpp"
 
@@ -60,8 +61,8 @@ void add_summary_words(const json& summary, std::vector<std::string>& words) {
   }
 }
 
-/// Sentences from the case, and the wheel's radius; a case that another version of the program made may not be
-/// readable.
+/// Sentences from the case, the wheel's radius, the limits of the audit; a case that another version of the program
+/// made may not be readable.
 void add_case_words(const std::string& path, json& facts, std::vector<std::string>& words) {
   try {
     const auto file = proto::CaseFile::load(path);
@@ -72,6 +73,11 @@ void add_case_words(const std::string& path, json& facts, std::vector<std::strin
                                   wheel.number("speed_m_per_s") * 3.6));
     }
     if (wheel.has("radius_m")) facts["wheel_radius"] = wheel.number("radius_m");
+    const auto audit = file.section("coupling").section("audit");
+    const proto::AuditLimits standard;
+    facts["audit_limits"] = {{"energy", audit.number_or("energy", standard.energy)},
+                             {"momentum", audit.number_or("momentum", standard.momentum)},
+                             {"moment", audit.number_or("moment", standard.moment)}};
   } catch (const proto::Error& error) {
     facts["warnings"].push_back(std::string("the case could not be read: ") + error.what());
   }
@@ -141,6 +147,9 @@ json run_facts(const std::string& folder) {
       add_summary_words(summary, words);
       if (summary.contains("/case/name"_json_pointer)) facts["name"] = summary["case"]["name"];
       if (summary.contains("status")) facts["status"] = summary["status"];
+      if (summary.contains("/failure/message"_json_pointer)) {
+        facts["warnings"].push_back(summary["failure"]["message"]);
+      }
       facts["summary"] = std::move(summary);
     } else {
       facts["warnings"].push_back("summary.json is not whole");

@@ -7,8 +7,8 @@
 namespace coupler::page {
 
 /// Of the run in `folder`, as far as it left them: "name", "status", "summary" (summary.json), "question" (the comment
-/// at the top of the case), "words" (sentences), "case_text", "wheel_radius" [m], "warnings" (of the logs),
-/// "provenance" (pairs). Where summary.json is not whole, a warning says so.
+/// at the top of the case), "words" (sentences), "case_text", "wheel_radius" [m], "audit_limits", "warnings" (of the
+/// logs), "provenance" (pairs). Where summary.json is not whole, a warning says so.
 nlohmann::json run_facts(const std::string& folder);
 
 /// The lines of comment at the top of a case file as one paragraph.

@@ -8,9 +8,10 @@ function card(label, value, note, state) {
   return h('div', { class: `card ${state ?? ''}` }, h('dt', {}, label), h('dd', { class: 'value' }, value), note ? h('dd', {}, note) : null);
 }
 
-/** A figure with what is asked of it. */
-function limited(label, value, limit) {
-  if (value === undefined) return null;
+/** A defect of the interface, relative, with what the case asks of it. */
+function limited(label, run, name) {
+  const value = at(run.summary, `interface.${name}_defect_relative`), limit = run.audit_limits?.[name];
+  if (typeof value !== 'number' || limit === undefined) return null;
   const good = value <= limit;
   return card(label, short(value, 3), `${good ? '✓ within' : '✗ above'} the ${short(limit)} asked for`, good ? 'good' : 'bad');
 }
@@ -25,8 +26,9 @@ function cards(run) {
     seat ? card('Largest seat force', withUnit(seat.max_force_n, 'N', 3), `at ${seat.name}`) : null,
     seat ? card('Largest displacement', withUnit(seat.max_rail_displacement_m, 'm', 3), `rail; sleeper ${withUnit(seat.max_sleeper_displacement_m, 'm', 3)}`) : null,
     wheel ? card('Wheel on rail, largest', withUnit(wheel, 'N', 3), 'contact force') : null,
-    limited('Energy created at the interface', at(summary, 'interface.energy_defect_relative'), 1e-3),
-    limited('Momentum lost at the interface', at(summary, 'interface.momentum_defect_relative'), 1e-4),
+    limited('Energy created at the interface', run, 'energy'),
+    limited('Momentum lost at the interface', run, 'momentum'),
+    limited('Moment lost at the interface', run, 'moment'),
     total ? card('Wall time', `${short(total, 3)} s`, summary.scheme ? `scheme ${summary.scheme}` : '') : null);
 }
 
