@@ -8,6 +8,7 @@
 #include <map>
 
 #include "coupler/app/analyze_options.hpp"
+#include "coupler/app/kit.hpp"
 #include "coupler/launch/children.hpp"
 #include "coupler/launch/exec_child.hpp"
 #include "proto/case/coupling.hpp"
@@ -68,6 +69,8 @@ int command_line(int argc, char** argv) {
   converge->add_option("--levels", n_levels, "number of runs")->check(CLI::Range(3, 12))->capture_default_str();
   coupler::AnalyzeOptions analysis;
   const auto* analyze = coupler::add_analyze_command(app, analysis);
+  coupler::Action chosen;
+  coupler::add_kit_commands(app, chosen);
   auto* check = add_command("check", "validate a case without running it");
   try {
     app.parse(argc, argv);
@@ -77,6 +80,7 @@ int command_line(int argc, char** argv) {
     const int code = app.exit(error);
     return code == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
   }
+  if (chosen) return chosen();
   if (analyze->parsed()) return coupler::analyze_run(analysis);
   if (converge->parsed()) return coupler::converge_case(options, n_levels);
   if (check->parsed()) return coupler::check_case(options);

@@ -12,7 +12,7 @@ namespace proto {
 namespace {
 
 constexpr std::chrono::seconds flush_time{1};
-constexpr std::chrono::seconds grace{3};
+constexpr std::chrono::seconds grace{1};
 constexpr std::size_t longest_queue = 32;  // lock-step never has more than a few messages under way
 
 std::chrono::steady_clock::duration seconds(double s) {

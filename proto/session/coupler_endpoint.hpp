@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "proto/span.hpp"
 #include "proto/wire/messages.hpp"
 
 namespace proto {
@@ -63,6 +64,10 @@ class CouplerEndpoint {
   /// Sends to a participant that has said Hello. Returns the sequence number that the answer must echo.
   /// Throws proto::Error (unavailable) naming the participant when it cannot be reached.
   std::uint64_t send(const std::string& participant, Body body);
+
+  /// Sends `frame` as it is, neither numbered nor counted: what a participant has to refuse, for a test of it.
+  /// Throws as send().
+  void send_bytes(const std::string& participant, Span<const std::uint8_t> frame);
 
   /// Signs of life of a participant that has said Hello; zeros for any other.
   struct Pulse {

@@ -1,0 +1,9 @@
+#include "coupler/app/kit.hpp"
+
+namespace coupler {
+
+void add_kit_commands(CLI::App& app, Action& chosen) {
+  add_conformance_command(app, chosen);
+}
+
+}  // namespace coupler
