@@ -79,3 +79,8 @@ house_test(coupler_conformance_test fault ALONE SOURCES fault/coupler_conformanc
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 600)
 add_dependencies(coupler_conformance_test coupler oscillator_participant broken_participant qdem_solver fem_solver fem_beam
                  spring_rail_participant)
+house_test(coupler_replay_test integration SOURCES integration/coupler_replay.cpp
+           LIBRARIES proto::case nlohmann_json::nlohmann_json TIMEOUT 120)
+add_dependencies(coupler_replay_test coupler oscillator_participant broken_participant)
+house_test(coupler_overhead_test integration ALONE SOURCES integration/coupler_overhead.cpp
+           LIBRARIES proto::participant proto::coupler_endpoint TIMEOUT 60)

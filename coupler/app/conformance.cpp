@@ -1,13 +1,11 @@
 // `coupler conformance`: one participant alone through a scripted suite.
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
-#include "coupler/app/case_input.hpp"
 #include "coupler/app/kit.hpp"
+#include "coupler/app/kit_candidate.hpp"
 #include "coupler/conformance/suite.hpp"
-#include "coupler/launch/program_path.hpp"
 #include "coupler/supervise/supervisor.hpp"
 #include "proto/error.hpp"
 #include "proto/result/text_file.hpp"
@@ -15,57 +13,15 @@
 namespace coupler {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ConformanceOptions {
   std::string case_path, name, json, out;
   std::vector<std::string> command, only;
   double amplitude_m = 1e-5;
 };
 
-conformance::Candidate candidate_of(const ConformanceOptions& options) {
-  const auto input = read_case(options.case_path);
-  conformance::Candidate candidate;
-  candidate.name = options.name;
-  candidate.coupling = input.coupling;
-  candidate.seats = input.seats;
-  candidate.case_path = fs::absolute(input.file.path()).string();
-  candidate.case_hash = input.file.hash();
-  candidate.amplitude_m = options.amplitude_m;
-  const auto& of_case = options.name == "qdem" ? input.coupling.qdem : input.coupling.fem;
-  candidate.command = options.command.empty() ? of_case.command : options.command;
-  candidate.command.front() = find_program(candidate.command.front(), "the command of the participant");
-  return candidate;
-}
-
-/// Where the participant writes: a folder that is asked for stays, one of our own goes when nothing failed.
-class Workplace {
- public:
-  explicit Workplace(const std::string& wanted) : own_(wanted.empty()), path_(wanted) {
-    if (own_) path_ = (fs::temp_directory_path() / "conformance-XXXXXX").string();
-    std::error_code error;
-    const bool made = own_ ? mkdtemp(path_.data()) != nullptr : fs::create_directory(path_, error);
-    if (!made)
-      throw proto::Error(proto::ExitCode::cannot_create, "the output folder cannot be made", path_,
-                         "--out must name a folder that is not there yet");
-    path_ = fs::absolute(path_).string();
-  }
-  ~Workplace() {
-    std::error_code ignored;
-    if (own_ && !keep_) fs::remove_all(path_, ignored);
-  }
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-  const std::string& path() const { return path_; }
-  void keep() { keep_ = true; }
-
- private:
-  bool own_, keep_ = false;
-  std::string path_;
-};
-
 int run_conformance(const ConformanceOptions& options) {
-  const auto candidate = candidate_of(options);
+  auto candidate = find_candidate(options.case_path, options.name, options.command);
+  candidate.amplitude_m = options.amplitude_m;
   Workplace workplace(options.out);
   conformance::Bench bench(candidate, workplace.path());
   fmt::print("{} as {} in {}\n", fmt::join(candidate.command, " "), candidate.name, options.case_path);

@@ -14,5 +14,7 @@ void add_kit_commands(CLI::App& app, Action& chosen);
 
 // Each of them, in a source file of its name.
 void add_conformance_command(CLI::App& app, Action& chosen);
+void add_profile_command(CLI::App& app, Action& chosen);
+void add_replay_command(CLI::App& app, Action& chosen);
 
 }  // namespace coupler

@@ -58,6 +58,7 @@ int command_line(int argc, char** argv) {
   run->add_option("--wall-limit", options.wall_limit_s,
                   "seconds of wall time after which to save a checkpoint and stop")
       ->check(CLI::PositiveNumber);
+  run->add_flag("--record", options.record, "write every frame to frames.log, for coupler replay");
   run->add_option("--restart", options.n_restarts, "how often to go on by itself when a participant is lost")
       ->check(CLI::Range(0, 1000));
   auto* converge = add_runner("converge", "run a case finer and finer and report the observed orders");

@@ -87,8 +87,8 @@ class Subject {
     return supervisor_->await<T>(name_, send(std::move(body)), true);
   }
   template <class T>
-  T await(std::uint64_t in_reply_to) {
-    return supervisor_->await<T>(name_, in_reply_to);
+  T await(std::uint64_t in_reply_to, bool set_up = false) {
+    return supervisor_->await<T>(name_, in_reply_to, set_up);
   }
   /// What send() would send next.
   proto::Message next_message(proto::Body body) const { return {endpoint_->session(), sent_ + 1, 0, std::move(body)}; }

@@ -81,6 +81,7 @@ struct CouplerEndpoint::Data {
   void deliver(const Peer& peer, Span<const std::uint8_t> frame, const std::string& what) {
     if (!transmit(peer.routing_id, frame))
       throw Error(ExitCode::unavailable, "'" + peer.name + "' cannot be reached: " + what + " was not sent");
+    if (observer) observer(peer.name, true, frame);
   }
 
   void note_connections();
@@ -92,6 +93,7 @@ struct CouplerEndpoint::Data {
   bool transmit(const std::string& id, Span<const std::uint8_t> frame);
 
   Admission admission;
+  Observer observer;
   RunDirectory run_directory;
   std::string address, token;
   std::uint64_t session;
@@ -153,9 +155,11 @@ bool CouplerEndpoint::Data::receive_one(std::vector<EndpointEvent>& events) {
   const std::string id = id_frame.to_string();
   const auto found = peers.find(id);
   if (found != peers.end() && found->second.broken) return true;
+  const Span<const std::uint8_t> bytes(static_cast<const std::uint8_t*>(frame.data()), frame.size());
+  if (observer && found != peers.end()) observer(found->second.name, false, bytes);
   try {
     if (!well_formed) throw Error(ExitCode::protocol, "a message is one frame");
-    auto message = decode({static_cast<const std::uint8_t*>(frame.data()), frame.size()});
+    auto message = decode(bytes);
     note_connections();
     if (found == peers.end())
       admit(id, connection_of(frame), message, events);
@@ -258,6 +262,10 @@ std::uint64_t CouplerEndpoint::send(const std::string& participant, Body body) {
 
 void CouplerEndpoint::send_bytes(const std::string& participant, Span<const std::uint8_t> frame) {
   data_->deliver(data_->connected(participant), frame, "a frame");
+}
+
+void CouplerEndpoint::observe(Observer observer) {
+  data_->observer = std::move(observer);
 }
 
 CouplerEndpoint::Pulse CouplerEndpoint::pulse(const std::string& participant) const {

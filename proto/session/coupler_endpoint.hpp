@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,6 +69,10 @@ class CouplerEndpoint {
   /// Sends `frame` as it is, neither numbered nor counted: what a participant has to refuse, for a test of it.
   /// Throws as send().
   void send_bytes(const std::string& participant, Span<const std::uint8_t> frame);
+
+  /// Is told of every frame that is exchanged after the handshake, heartbeats included: with whom, whether it was sent.
+  using Observer = std::function<void(const std::string&, bool sent, Span<const std::uint8_t>)>;
+  void observe(Observer observer);
 
   /// Signs of life of a participant that has said Hello; zeros for any other.
   struct Pulse {
