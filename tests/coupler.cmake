@@ -81,3 +81,18 @@ endforeach()
 house_test(coupler_resume_test fault ALONE SOURCES fault/coupler_resume.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 400)
 add_dependencies(coupler_resume_test coupler qdem_solver fem_solver oscillator_participant)
+
+# What a participant has to keep, and participants that do not.
+add_executable(broken_participant support/broken_participant.cpp)
+target_link_libraries(broken_participant PRIVATE proto::participant proto_session_sockets proto::result_serial
+                                                 coupler::advisor Threads::Threads house::options)
+set_target_properties(broken_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
+house_test(coupler_conformance_test fault ALONE SOURCES fault/coupler_conformance.cpp
+           LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 600)
+add_dependencies(coupler_conformance_test coupler oscillator_participant broken_participant qdem_solver fem_solver fem_beam
+                 spring_rail_participant)
+house_test(coupler_replay_test integration SOURCES integration/coupler_replay.cpp
+           LIBRARIES proto::case nlohmann_json::nlohmann_json TIMEOUT 120)
+add_dependencies(coupler_replay_test coupler oscillator_participant broken_participant)
+house_test(coupler_overhead_test integration ALONE SOURCES integration/coupler_overhead.cpp
+           LIBRARIES proto::participant proto::coupler_endpoint TIMEOUT 60)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "coupler/app/scheme_needs.hpp"
 #include "coupler/launch/program_path.hpp"
@@ -70,6 +71,15 @@ CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::
 
 CoupledRun::~CoupledRun() {
   children_.stop(grace_s);
+}
+
+void CoupledRun::record_frames() {
+  auto path = folder_.file("frames.log");
+  for (int i = 1; std::filesystem::exists(path); ++i) path = folder_.file(fmt::format("frames-{}.log", i));
+  frames_.emplace(path);
+  endpoint_.observe([this](const std::string& name, bool sent, proto::Span<const std::uint8_t> frame) {
+    frames_->add(name, sent, frame);
+  });
 }
 
 void CoupledRun::start(int n_threads) {
@@ -225,7 +235,7 @@ MarchEnd CoupledRun::march(std::optional<Clock::time_point> deadline) {
   supervisor_.set_interruptible(false);
   const auto n_windows = static_cast<std::int64_t>(input_.coupling.n_windows);
   log_.info("marching through windows {} to {}", next_window_, n_windows - 1);
-  last_save_ = Clock::now();
+  const auto march_begin = last_save_ = Clock::now();
   Progress progress("marching", n_windows, input_.coupling.window_s);
   for (auto n = next_window_; n < n_windows; n = next_window_) {
     if (const auto end = early_end(deadline); end != MarchEnd::complete) {
@@ -234,7 +244,10 @@ MarchEnd CoupledRun::march(std::optional<Clock::time_point> deadline) {
       return end;
     }
     supervisor_.set_stage(fmt::format("window {}", n));
-    const auto record = scheme_->advance(proto::Phase::march, n, {*rail_, qdem_});
+    const double window_begin_s = seconds_since(march_begin);
+    auto record = scheme_->advance(proto::Phase::march, n, {*rail_, qdem_});
+    record.begin_s = window_begin_s;
+    record.end_s = seconds_since(march_begin);
     account(record);
     add_window(record);
     scheme_->commit(n, {*rail_, qdem_});

@@ -13,6 +13,7 @@
 #include "coupler/launch/children.hpp"
 #include "coupler/record/checkpoint.hpp"
 #include "coupler/record/coupling_record.hpp"
+#include "coupler/record/frame_log.hpp"
 #include "coupler/record/interface_hash.hpp"
 #include "coupler/record/recorded_rail.hpp"
 #include "coupler/record/run_folder.hpp"
@@ -34,6 +35,8 @@ class CoupledRun {
   /// Ends whatever still runs.
   ~CoupledRun();
 
+  /// Every frame of the run goes to a file frames.log, or frames-1.log, ... when there are some. To be called first.
+  void record_frames();
   /// Starts both participants and hands them endpoint and token.
   void start(int n_threads);
   /// Handshake, check of the interface, configuration, sub-cycles.
@@ -93,6 +96,7 @@ class CoupledRun {
   std::optional<double> configured_step_s_, initialise_step_s_;  ///< largest of the explicit side [s]
   std::unique_ptr<CouplingScheme> scheme_;                       ///< of the march
   std::optional<CouplingRecord> record_;
+  std::optional<FrameLog> frames_;
   InterfaceHash hash_;
   CheckpointSlots slots_;
   bool can_save_;  ///< all participants offer it, and the scheme's windows are theirs

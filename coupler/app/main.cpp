@@ -8,6 +8,7 @@
 #include <map>
 
 #include "coupler/app/analyze_options.hpp"
+#include "coupler/app/kit.hpp"
 #include "coupler/launch/children.hpp"
 #include "coupler/launch/exec_child.hpp"
 #include "proto/case/coupling.hpp"
@@ -57,6 +58,7 @@ int command_line(int argc, char** argv) {
   run->add_option("--wall-limit", options.wall_limit_s,
                   "seconds of wall time after which to save a checkpoint and stop")
       ->check(CLI::PositiveNumber);
+  run->add_flag("--record", options.record, "write every frame to frames.log, for coupler replay");
   run->add_option("--restart", options.n_restarts, "how often to go on by itself when a participant is lost")
       ->check(CLI::Range(0, 1000));
   auto* converge = add_runner("converge", "run a case finer and finer and report the observed orders");
@@ -76,6 +78,8 @@ int command_line(int argc, char** argv) {
   report->add_option("--size-limit", page.size_limit_mb, "largest size of the page [MB]")
       ->check(CLI::Range(1.0, 500.0))
       ->capture_default_str();
+  coupler::Action chosen;
+  coupler::add_kit_commands(app, chosen);
   auto* check = add_command("check", "validate a case without running it");
   try {
     app.parse(argc, argv);
@@ -85,6 +89,7 @@ int command_line(int argc, char** argv) {
     const int code = app.exit(error);
     return code == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
   }
+  if (chosen) return chosen();
   if (analyze->parsed()) return coupler::analyze_run(analysis);
   if (report->parsed()) return coupler::report_runs(page);
   if (converge->parsed()) return coupler::converge_case(options, n_levels);

@@ -24,6 +24,7 @@ struct RunOptions {
   std::string resume;             ///< folder of an earlier run to go on in; empty: a new run
   std::set<std::string> allowed;  ///< of a resumed run: may differ ("case", "version")
   double wall_limit_s = 0.0;      ///< stop in time with a checkpoint; 0: no limit [s]
+  bool record = false;            ///< every frame goes to frames.log
   int n_restarts = 0;             ///< how often a run whose participant was lost goes on by itself
 };
 

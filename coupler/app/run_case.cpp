@@ -57,7 +57,8 @@ Failure stopped_by_user(int signal, const std::string& stage) {
 /// What a run was asked for, beside the case.
 struct Orders {
   int n_threads = 0, n_restarts = 0;
-  int n_failures = 0;  ///< since the last checkpoint
+  bool record = false;  ///< every frame
+  int n_failures = 0;   ///< since the last checkpoint
   std::optional<Clock::time_point> deadline;
   std::optional<Checkpoint> set;  ///< to go on from
 };
@@ -73,6 +74,7 @@ int judge(MarchEnd end, int signal, const std::string& stage, Summary& summary) 
 
 /// The whole run; fills the summary. Returns the exit code, throws what ended it early.
 int carry_out(CoupledRun& run, Summary& summary, const Orders& orders) {
+  if (orders.record) run.record_frames();
   run.start(orders.n_threads);
   run.set_up();
   if (orders.set) {
@@ -197,6 +199,7 @@ Orders orders_of(const RunOptions& options) {
   Orders orders;
   orders.n_threads = options.n_threads;
   orders.n_restarts = options.n_restarts;
+  orders.record = options.record;
   if (options.wall_limit_s > 0.0)
     orders.deadline =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.wall_limit_s));

@@ -39,6 +39,8 @@ std::vector<proto::Column> columns(const std::vector<proto::RailSeat>& seats) {
       {"sub_cycles", "1", "steps of qdem in the window", {}},
       {"qdem_compute", "s", "wall time qdem computed in the window", {}},
       {"fem_compute", "s", "wall time fem computed in the window", {}},
+      {"window_begin", "s", "wall time since the march began, or was resumed: the window's first request", {}},
+      {"window_end", "s", "the same of its last result", {}},
   };
   for (const auto& seat : seats) {
     result.push_back({"seats/" + seat.name + "/moment_defect", "N m s", moment_text, {3}});
@@ -91,7 +93,8 @@ void CouplingRecord::add_initial(const InterfaceState& initial) {
   const std::vector<double> zero(momentum_defect_sum_.size(), 0.0);
   file_->put("window", -1.0);
   for (const char* name : {"time", "energy_defect_sum", "energy_defect_relative", "momentum_defect_relative",
-                           "moment_defect_relative", "solves", "sub_cycles", "qdem_compute", "fem_compute"})
+                           "moment_defect_relative", "solves", "sub_cycles", "qdem_compute", "fem_compute",
+                           "window_begin", "window_end"})
     file_->put(name, 0.0);
   file_->put("converged", 1.0);
   for (const auto& column : seat_columns) put_seats(column.name, zero);
@@ -118,6 +121,8 @@ void CouplingRecord::add(const WindowRecord& record, const WindowAudit& defects,
   file_->put("sub_cycles", static_cast<double>(record.sub_cycles));
   file_->put("qdem_compute", record.explicit_compute_s);
   file_->put("fem_compute", record.implicit_compute_s);
+  file_->put("window_begin", record.begin_s);
+  file_->put("window_end", record.end_s);
   put_seats("rail_displacement", record.rail_displacement);
   put_seats("rail_velocity", record.rail_velocity);
   put_seats("sleeper_displacement", record.sleeper_displacement);

@@ -29,6 +29,7 @@ struct WindowRecord {
   double force_residual = 0.0;   ///< of an iteration: last residual of the mean force over its running scale [-]
   double contraction = 0.0;      ///< of an iteration or a corrector: last residual over the one before; 0: none [-]
   double implicit_compute_s = 0.0, explicit_compute_s = 0.0;
+  double begin_s = 0.0, end_s = 0.0;  ///< of the march, by the coupler's clock since it began [s]
   double implicit_residual = 0.0, explicit_residual = 0.0;  ///< Result.residual; 0 where none was given [-]
 };
 

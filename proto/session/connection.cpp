@@ -12,7 +12,7 @@ namespace proto {
 namespace {
 
 constexpr std::chrono::seconds flush_time{1};
-constexpr std::chrono::seconds grace{3};
+constexpr std::chrono::seconds grace{1};
 constexpr std::size_t longest_queue = 32;  // lock-step never has more than a few messages under way
 
 std::chrono::steady_clock::duration seconds(double s) {
@@ -158,9 +158,9 @@ void Connection::take_frames() {
 
 bool Connection::is_repeated(const Message& message) const {
   const auto* advance = std::get_if<Advance>(&message.body);
-  if (!advance || !last_advance_ || message.sequence != last_advance_->sequence) return false;
-  const auto& last = std::get<Advance>(last_advance_->body);
-  return advance->phase == last.phase && advance->window == last.window && advance->iteration == last.iteration;
+  return advance && last_advance_ && message.sequence == last_advance_->sequence &&
+         advance->phase == last_advance_->phase && advance->window == last_advance_->window &&
+         advance->iteration == last_advance_->iteration;
 }
 
 void Connection::check_order(const Message& message) const {
@@ -189,7 +189,8 @@ void Connection::take(Message message) {
     session_ = welcome->session;
     heartbeat_s_ = std::max(welcome->heartbeat_s, 0.01);
   }
-  if (std::holds_alternative<Advance>(message.body)) last_advance_ = message;
+  if (const auto* advance = std::get_if<Advance>(&message.body))
+    last_advance_ = Request{message.sequence, advance->phase, advance->window, advance->iteration};
   const std::lock_guard lock(mutex_);
   inbound_.push_back(std::move(message));
   if (inbound_.size() > longest_queue)
@@ -202,7 +203,6 @@ bool Connection::deliver(const Outgoing& outgoing) {
   const auto frame = encode({session_, sent_ + 1, outgoing.in_reply_to, outgoing.body});
   if (!send_part(socket_, zmq::buffer(frame), zmq::send_flags::dontwait)) return false;
   ++sent_;
-  if (std::holds_alternative<Result>(outgoing.body)) last_result_ = outgoing;
   if (std::holds_alternative<Bye>(outgoing.body)) finished_ = true;
   return true;
 }
@@ -211,11 +211,16 @@ void Connection::deliver_queue() {
   std::unique_lock lock(mutex_);
   blocked_ = false;
   while (!outbound_.empty() && !blocked_) {
-    const Outgoing next = outbound_.front();
+    Outgoing next = std::move(outbound_.front());
     lock.unlock();
     blocked_ = !deliver(next);
     lock.lock();
-    if (!blocked_) outbound_.pop_front();
+    if (blocked_) {
+      outbound_.front() = std::move(next);
+      return;
+    }
+    outbound_.pop_front();
+    if (std::holds_alternative<Result>(next.body)) last_result_ = std::move(next);
   }
 }
 

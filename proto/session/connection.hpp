@@ -44,6 +44,14 @@ class Connection {
     std::uint64_t in_reply_to = 0;
   };
 
+  /// What tells one Advance from another.
+  struct Request {
+    std::uint64_t sequence = 0;
+    Phase phase = Phase::march;
+    std::int64_t window = 0;
+    std::uint32_t iteration = 0;
+  };
+
   void run();
   bool turn();
   void take_frames();
@@ -72,7 +80,7 @@ class Connection {
   std::uint64_t session_ = 0, sent_ = 0, received_ = 0;
   double heartbeat_s_ = 1.0;
   bool blocked_ = false, lost_ = false, finished_ = false;
-  std::optional<Message> last_advance_;
+  std::optional<Request> last_advance_;
   std::optional<Outgoing> last_result_;
 
   // Shared, under the mutex.

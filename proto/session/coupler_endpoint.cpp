@@ -72,15 +72,28 @@ struct CouplerEndpoint::Data {
     return nullptr;
   }
 
+  Peer& connected(const std::string& name) {
+    auto* peer = by_name(name);
+    if (!peer) throw Error(ExitCode::unavailable, "'" + name + "' has not connected");
+    return *peer;
+  }
+
+  void deliver(const Peer& peer, Span<const std::uint8_t> frame, const std::string& what) {
+    if (!transmit(peer.routing_id, frame))
+      throw Error(ExitCode::unavailable, "'" + peer.name + "' cannot be reached: " + what + " was not sent");
+    if (observer) observer(peer.name, true, frame);
+  }
+
   void note_connections();
   void report_lost(std::vector<EndpointEvent>& events);
   bool receive_one(std::vector<EndpointEvent>& events);
   void admit(const std::string& id, int fd, const Message& message, std::vector<EndpointEvent>& events);
   void take(Peer& peer, Message message, std::vector<EndpointEvent>& events);
   void mark_broken(Peer& peer, ExitCode code, const std::string& problem, std::vector<EndpointEvent>& events);
-  bool transmit(const std::string& id, const Message& message);
+  bool transmit(const std::string& id, Span<const std::uint8_t> frame);
 
   Admission admission;
+  Observer observer;
   RunDirectory run_directory;
   std::string address, token;
   std::uint64_t session;
@@ -119,12 +132,11 @@ void CouplerEndpoint::Data::mark_broken(Peer& peer, ExitCode code, const std::st
   events.push_back({peer.name, {}, problem, static_cast<int>(code)});
 }
 
-bool CouplerEndpoint::Data::transmit(const std::string& id, const Message& message) {
-  const auto frame = encode(message);
+bool CouplerEndpoint::Data::transmit(const std::string& id, Span<const std::uint8_t> frame) {
   try {
     // A router that took the first part takes the second: only the first can block or fail.
     return send_part(socket, zmq::buffer(id), zmq::send_flags::sndmore) &&
-           send_part(socket, zmq::buffer(frame), zmq::send_flags::none);
+           send_part(socket, zmq::buffer(frame.data(), frame.size()), zmq::send_flags::none);
   } catch (const zmq::error_t& error) {
     if (error.num() == EHOSTUNREACH) return false;
     throw;
@@ -143,9 +155,11 @@ bool CouplerEndpoint::Data::receive_one(std::vector<EndpointEvent>& events) {
   const std::string id = id_frame.to_string();
   const auto found = peers.find(id);
   if (found != peers.end() && found->second.broken) return true;
+  const Span<const std::uint8_t> bytes(static_cast<const std::uint8_t*>(frame.data()), frame.size());
+  if (observer && found != peers.end()) observer(found->second.name, false, bytes);
   try {
     if (!well_formed) throw Error(ExitCode::protocol, "a message is one frame");
-    auto message = decode({static_cast<const std::uint8_t*>(frame.data()), frame.size()});
+    auto message = decode(bytes);
     note_connections();
     if (found == peers.end())
       admit(id, connection_of(frame), message, events);
@@ -168,7 +182,7 @@ void CouplerEndpoint::Data::admit(const std::string& id, int fd, const Message& 
   const std::string reason = hello ? why_not_welcome(*hello, admission, token, taken)
                                    : std::string("the first message must be Hello, not ") + name_of(message.body);
   if (!reason.empty()) {
-    transmit(id, {0, 1, message.sequence, Reject{reason}});
+    transmit(id, encode({0, 1, message.sequence, Reject{reason}}));
     const std::string who = hello ? "'" + hello->name + "'" : "a stranger";
     events.push_back({"", {}, who + " was rejected: " + reason, static_cast<int>(ExitCode::protocol)});
     return;
@@ -179,7 +193,8 @@ void CouplerEndpoint::Data::admit(const std::string& id, int fd, const Message& 
   peer.fd = fd;
   peer.received = message.sequence;
   peer.sent = 1;
-  if (!transmit(id, {session, peer.sent, message.sequence, Welcome{session, admission.heartbeat_s}})) peer.fd = -1;
+  if (!transmit(id, encode({session, peer.sent, message.sequence, Welcome{session, admission.heartbeat_s}})))
+    peer.fd = -1;
   peers[id] = peer;
   events.push_back({peer.name, message, "", 0});
 }
@@ -238,13 +253,19 @@ std::vector<EndpointEvent> CouplerEndpoint::wait(double timeout_s, int extra_fd)
 }
 
 std::uint64_t CouplerEndpoint::send(const std::string& participant, Body body) {
-  auto* peer = data_->by_name(participant);
-  if (!peer) throw Error(ExitCode::unavailable, "'" + participant + "' has not connected");
+  auto& peer = data_->connected(participant);
   const std::string what = name_of(body);
-  if (!data_->transmit(peer->routing_id, {data_->session, peer->sent + 1, 0, std::move(body)}))
-    throw Error(ExitCode::unavailable, "'" + participant + "' cannot be reached: " + what + " was not sent");
-  peer->last_change = Clock::now();
-  return ++peer->sent;
+  data_->deliver(peer, encode({data_->session, peer.sent + 1, 0, std::move(body)}), what);
+  peer.last_change = Clock::now();
+  return ++peer.sent;
+}
+
+void CouplerEndpoint::send_bytes(const std::string& participant, Span<const std::uint8_t> frame) {
+  data_->deliver(data_->connected(participant), frame, "a frame");
+}
+
+void CouplerEndpoint::observe(Observer observer) {
+  data_->observer = std::move(observer);
 }
 
 CouplerEndpoint::Pulse CouplerEndpoint::pulse(const std::string& participant) const {

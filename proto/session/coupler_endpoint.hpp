@@ -7,11 +7,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "proto/span.hpp"
 #include "proto/wire/messages.hpp"
 
 namespace proto {
@@ -63,6 +65,14 @@ class CouplerEndpoint {
   /// Sends to a participant that has said Hello. Returns the sequence number that the answer must echo.
   /// Throws proto::Error (unavailable) naming the participant when it cannot be reached.
   std::uint64_t send(const std::string& participant, Body body);
+
+  /// Sends `frame` as it is, neither numbered nor counted: what a participant has to refuse, for a test of it.
+  /// Throws as send().
+  void send_bytes(const std::string& participant, Span<const std::uint8_t> frame);
+
+  /// Is told of every frame that is exchanged after the handshake, heartbeats included: with whom, whether it was sent.
+  using Observer = std::function<void(const std::string&, bool sent, Span<const std::uint8_t>)>;
+  void observe(Observer observer);
 
   /// Signs of life of a participant that has said Hello; zeros for any other.
   struct Pulse {

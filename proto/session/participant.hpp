@@ -104,7 +104,7 @@ SessionOptions read_session_options(const std::string& endpoint, std::uint64_t c
 ///
 /// Checks what the participant gives as well: a field of wrong length, one that describe() did not list as outgoing
 /// (internal), or a number that is not finite (numerics; the text names field, seat, cell, axis and window).
-/// When the coupler is lost while the participant computes, and its call does not return within 3 s, the process ends
+/// When the coupler is lost while the participant computes, and its call does not return within 1 s, the process ends
 /// with exit code 69 after a line on stderr: nobody would take the result.
 /// Throws proto::Error: unavailable (no coupler, coupler lost or stopped by a fault), protocol (a message out of order
 /// or malformed, a rejected handshake, with the coupler's reason), or whatever the participant threw.

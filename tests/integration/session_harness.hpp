@@ -83,7 +83,7 @@ class SessionHarness : public ::testing::Test {
       ADD_FAILURE() << "nothing came in 10 s";
       return {};
     }
-    auto event = pending.front();
+    auto event = std::move(pending.front());
     pending.erase(pending.begin());
     return event;
   }
@@ -91,14 +91,14 @@ class SessionHarness : public ::testing::Test {
   /// The next event, which must be a message of this type.
   template <class Body>
   Body expect() {
-    const auto event = next_event();
+    auto event = next_event();
     if (!event.message || !std::holds_alternative<Body>(event.message->body)) {
       ADD_FAILURE() << "expected " << proto::name_of(Body{}) << ", found "
                     << (event.message ? proto::name_of(event.message->body) : event.problem);
       return {};
     }
     last_reply = event.message->in_reply_to;
-    return std::get<Body>(event.message->body);
+    return std::get<Body>(std::move(event.message->body));
   }
 
   /// Sends a request and takes its answer.

@@ -1,0 +1,11 @@
+#include "coupler/app/kit.hpp"
+
+namespace coupler {
+
+void add_kit_commands(CLI::App& app, Action& chosen) {
+  add_conformance_command(app, chosen);
+  add_replay_command(app, chosen);
+  add_profile_command(app, chosen);
+}
+
+}  // namespace coupler

@@ -1,0 +1,20 @@
+// The subcommands for those who bring a solver: conformance, replay, profile.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace coupler {
+
+/// What a subcommand does, once the command line is known to be right; empty: none of these was given. The exit code.
+using Action = std::function<int()>;
+
+/// Adds the subcommands; `chosen` is set when one of them was given.
+void add_kit_commands(CLI::App& app, Action& chosen);
+
+// Each of them, in a source file of its name.
+void add_conformance_command(CLI::App& app, Action& chosen);
+void add_profile_command(CLI::App& app, Action& chosen);
+void add_replay_command(CLI::App& app, Action& chosen);
+
+}  // namespace coupler
