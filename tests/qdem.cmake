@@ -8,6 +8,7 @@ house_test(qdem_bending verification SOURCES verification/qdem_bending.cpp LIBRA
 house_test(qdem_modes verification SOURCES verification/qdem_modes.cpp LIBRARIES qdem::engine)
 house_test(qdem_viscoelastic verification SOURCES verification/qdem_viscoelastic.cpp LIBRARIES qdem::engine)
 house_test(qdem_engine_whole integration SOURCES integration/qdem_engine.cpp LIBRARIES qdem::engine)
+house_test(qdem_device integration SOURCES integration/qdem_device.cpp unit/device_memory.cpp LIBRARIES qdem::engine)
 house_test(qdem_incline verification SOURCES verification/qdem_incline.cpp LIBRARIES qdem::engine)
 house_test(qdem_relaxation verification SOURCES verification/qdem_relaxation.cpp LIBRARIES qdem::engine)
 # Threads that wait by spinning stand in each other's way where other tests run at the same time.

@@ -1,4 +1,4 @@
-// The time integrator: forces of one model on one state, kick-drift-kick, on the CPU.
+// The time integrator: forces of one model on one state, kick-drift-kick, on the CPU or on a device.
 //
 // One step from t_n to t_n+1 = t_n + dt:
 //     x += dt (v + dt/2 a);  v_pred = v + dt a;  a_new = forces(x, v_pred)/m;  v += dt/2 (a + a_new)
@@ -17,9 +17,19 @@
 
 namespace qdem {
 
+/// Who makes the steps.
+enum class EngineKind {
+  cpu,
+  cuda,   ///< a CUDA device
+  check,  ///< the kernels of the device engine, run on the host: see device/README.md
+};
+
 struct EngineOptions {
-  int threads = 0;                     ///< OpenMP threads; 0: as many as the environment gives
-  std::function<void()> on_step = {};  ///< called after every step, e.g. to bump a work counter
+  int threads = 0;  ///< OpenMP threads; 0: as many as the environment gives
+  std::function<void()> on_step =
+      {};  ///< called after every step, e.g. to bump a work counter; on a device after the call's last one
+  EngineKind kind = EngineKind::cpu;
+  std::uint64_t check_seed = 1;  ///< of the order in which `check` runs the items of a kernel; 0: ascending
 };
 
 /// Motion of the rail foot at the pad cells over one run of steps: linear from `begin` to `end`, values in order of
@@ -48,6 +58,7 @@ struct Energies {
 /// of threads.
 class Engine {
  public:
+  /// Throws proto::Error (unavailable) for a device that is not there.
   explicit Engine(const Model& model, EngineOptions options = {});
   ~Engine();
 

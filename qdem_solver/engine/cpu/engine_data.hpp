@@ -6,6 +6,7 @@
 #include "qdem_solver/engine/cpu/tasks.hpp"
 #include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/engine/pads.hpp"
+#include "qdem_solver/engine/stepper.hpp"
 
 namespace qdem {
 
@@ -30,7 +31,7 @@ struct Engine::Data {
   std::vector<double> pad_values(const std::vector<double>& field) const;
   std::vector<double> pad_forces(const State& state, const std::vector<double>& u,
                                  const std::vector<double>& rate) const;
-  [[noreturn]] void report_blow_up(const State& state) const;
+  PadSums advance_on_device(State& state, double dt, std::int64_t n_steps, const PadDrive* drive);
 
   const Model& model;
   EngineOptions options;
@@ -45,6 +46,7 @@ struct Engine::Data {
   ContactStage contact;
   PadOperator pads;
   std::vector<double> pad_reference;
+  std::unique_ptr<Stepper> device;  ///< makes the steps in place of all the above; nullptr: the CPU does
 };
 
 }  // namespace qdem

@@ -1,0 +1,37 @@
+#include "qdem_solver/engine/stepper.hpp"
+
+#include <sstream>
+
+#include "proto/error.hpp"
+
+namespace qdem {
+
+std::unique_ptr<Stepper> make_stepper(const Model& model, const EngineOptions& options) {
+  switch (options.kind) {
+    case EngineKind::cuda:
+      return make_cuda_stepper(model);
+    case EngineKind::check:
+      return make_check_stepper(model, options.check_seed);
+    default:
+      return nullptr;
+  }
+}
+
+void report_blow_up(const Model& model, const State& state) {
+  for (std::size_t body = 0; body < model.bodies.size(); ++body) {
+    for (int node = 0; node < model.shape(static_cast<int>(body)).n_nodes(); ++node) {
+      const auto b = static_cast<int>(body);
+      if (state.position(model, b, node).allFinite() && state.velocity(model, b, node).allFinite()) continue;
+      std::ostringstream problem, where;
+      problem << "the motion is no longer finite";
+      where << "step " << state.step << ", t = " << state.time << " s, body " << body << " '" << model.bodies[body].name
+            << "', node " << node;
+      throw proto::Error(proto::ExitCode::numerics, problem.str(), where.str(),
+                         "lower [qdem] step_safety, or look for overlapping bodies at the start");
+    }
+  }
+  throw proto::Error(proto::ExitCode::numerics, "the motion overflows", "step " + std::to_string(state.step),
+                     "lower [qdem] step_safety");
+}
+
+}  // namespace qdem
