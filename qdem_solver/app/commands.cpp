@@ -13,6 +13,7 @@
 #include "proto/case/case_file.hpp"
 #include "proto/error.hpp"
 #include "qdem_solver/bed/stone_export.hpp"
+#include "qdem_solver/bench/device_report.hpp"
 #include "qdem_solver/bench/report.hpp"
 #include "qdem_solver/output/bed_file.hpp"
 #include "qdem_solver/output/fields_file.hpp"
@@ -104,6 +105,10 @@ void bench_command(const std::string& case_path, const std::string& json_path) {
   if (!out.flush()) {
     throw proto::Error(proto::ExitCode::cannot_create, "the report cannot be written", json_path);
   }
+}
+
+void device_bench_command() {
+  fmt::print("{}", bench::device_table());
 }
 
 void stones_command(const std::string& case_path, const std::string& folder, const bed::Roughness& roughness) {

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <ctime>
 
-#include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/engine/stability.hpp"
 
 namespace qdem::bench {
@@ -29,7 +28,11 @@ class Clock {
 }  // namespace
 
 Rate step_rate(Scene& scene, int threads, int n_steps) {
-  Engine engine(scene.model, {threads});
+  return step_rate(scene, EngineOptions{threads}, n_steps);
+}
+
+Rate step_rate(Scene& scene, const EngineOptions& options, int n_steps) {
+  Engine engine(scene.model, options);
   engine.prepare(scene.state);
   Rate best;
   for (int round = 0; round < rounds; ++round) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "qdem_solver/bench/scenes.hpp"
+#include "qdem_solver/engine/engine.hpp"
 
 namespace qdem::bench {
 
@@ -13,6 +14,7 @@ struct Rate {
 
 /// Whole steps a second, so small that the scene stays where it is: the cost of a step does not depend on its length.
 Rate step_rate(Scene& scene, int threads, int n_steps);
+Rate step_rate(Scene& scene, const EngineOptions& options, int n_steps);
 
 struct ContactCost {
   std::int64_t live = 0;           ///< contacts that carry a force

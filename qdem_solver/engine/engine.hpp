@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "proto/span.hpp"
@@ -23,6 +24,9 @@ enum class EngineKind {
   cuda,   ///< a CUDA device
   check,  ///< the kernels of the device engine, run on the host: see device/README.md
 };
+
+/// Why an engine cannot be used here: not built in, no device. Empty: it can.
+std::string why_no_engine(EngineKind kind);
 
 struct EngineOptions {
   int threads = 0;  ///< OpenMP threads; 0: as many as the environment gives

@@ -6,6 +6,10 @@
 
 namespace qdem {
 
+std::string why_no_engine(EngineKind kind) {
+  return kind == EngineKind::cuda ? why_no_cuda() : "";
+}
+
 std::unique_ptr<Stepper> make_stepper(const Model& model, const EngineOptions& options) {
   switch (options.kind) {
     case EngineKind::cuda:

@@ -5,6 +5,7 @@
 
 #include "proto/case/case_file.hpp"
 #include "qdem_solver/bed/bed.hpp"
+#include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/participant/load_history.hpp"
 #include "qdem_solver/sensors/sensor_settings.hpp"
 
@@ -21,6 +22,7 @@ struct QdemCase {
   BedPhysics physics;
   double step_safety = 0.8;         ///< share of the computed stability bound
   double largest_step = 0.0;        ///< the user's own limit [s]; 0: none
+  EngineKind engine = EngineKind::cpu;
   int threads = 0;                  ///< 0: as many as the environment gives
   double initialise_damping = 0.5;  ///< Cundall's damping in the initialise phase [-]
   SensorsSettings sensors;
@@ -28,7 +30,7 @@ struct QdemCase {
 };
 
 /// Reads
-///   [qdem] particle_interaction ("quadruple", "bond"), step_safety, largest_step_s, threads, gravity_m_per_s2,
+///   [qdem] particle_interaction ("quadruple", "bond"), engine ("cpu", "cuda", "check"), step_safety, largest_step_s, threads, gravity_m_per_s2,
 ///     initialise_damping, sensor_interval_s
 ///   [[qdem.sensor]] (sensors/sensor_settings.hpp)
 ///   [[qdem.material]] name ("stone", "sleeper"; both once), young_pa, poisson, density_kg_per_m3, and one of

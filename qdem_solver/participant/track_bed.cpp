@@ -30,7 +30,8 @@ TrackBed::TrackBed(const proto::CaseFile& file, const BedSource& source, std::fu
       bed_(bed_of(file, settings_, source)),
       rest_(bed_.state) {
   bed_.model.pads = make_pad_cells(bed_.model, bed_.state, bed_.model.pad_body, seats_);
-  engine_ = std::make_unique<Engine>(bed_.model, EngineOptions{settings_.threads, std::move(on_step)});
+  engine_ =
+      std::make_unique<Engine>(bed_.model, EngineOptions{settings_.threads, std::move(on_step), settings_.engine});
   engine_->set_pad_reference(rest_.x);
   engine_->prepare(bed_.state);
   relaxation_.emplace(bed_.model, resting_points, settings_.step_safety);
@@ -115,7 +116,11 @@ proto::Attributes TrackBed::attributes(const proto::CaseFile& file) const {
 }
 
 void check_case(const proto::CaseFile& file) {
-  read_qdem_case(file);
+  const std::string missing = why_no_engine(read_qdem_case(file).engine);
+  if (!missing.empty()) {
+    file.section("qdem").fail("engine", "the CUDA engine cannot be used: " + missing,
+                              "give \"cpu\", or build with the preset cuda and run where a CUDA device is");
+  }
   proto::read_rail_seats(file);
 }
 

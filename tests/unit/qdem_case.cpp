@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "proto/error.hpp"
+#include "qdem_solver/participant/track_bed.hpp"
 #include "tests/support/small_bed.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -113,6 +114,28 @@ TEST(QdemCase, ReadsHowParticlesInteract) {
   EXPECT_EQ(physics.sleeper.interaction, Interaction::bond);
 }
 
+TEST(QdemCase, ReadsWhoMakesTheSteps) {
+  using qdem::EngineKind;
+  EXPECT_EQ(read("").engine, EngineKind::cpu);
+  EXPECT_EQ(read("engine = \"cuda\"\n").engine, EngineKind::cuda);
+  EXPECT_EQ(read("engine = \"check\"\n").engine, EngineKind::check);
+}
+
+TEST(QdemCase, AnEngineThatIsNotThereIsRefused) {
+  const std::string missing = qdem::why_no_engine(qdem::EngineKind::cuda);
+  if (missing.empty()) GTEST_SKIP() << "there is a CUDA device";
+  const auto path = tests::small_bed_case(testing::TempDir(), "engine = \"cuda\"\n");
+  try {
+    qdem::check_case(proto::CaseFile::load(path));
+    FAIL() << "accepted";
+  } catch (const proto::Error& error) {
+    EXPECT_EQ(error.code(), proto::ExitCode::config);
+    for (const auto& part : {missing, std::string("qdem.engine"), std::string(".toml:20:10")}) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(QdemCase, ALossFactorIsARetardationTime) {
   const auto file = [&](const std::string& damping) {
     std::string text = proto::CaseFile::load(tests::small_bed_case(testing::TempDir())).text();
@@ -143,6 +166,7 @@ TEST(QdemCase, ALossFactorIsARetardationTime) {
 
 TEST(QdemCase, RefusesWhatItCannotUse) {
   expect_refused("particle_interaction = \"bonds\"\n", "did you mean 'bond'");
+  expect_refused("engine = \"gpu\"\n", "cuda");
   expect_refused("particle_interactoin = \"bond\"\n", "particle_interaction");
   expect_refused("step_safty = 0.7\n", "step_safety");
   expect_refused("step_safety = 1.2\n", "qdem.step_safety");
