@@ -25,6 +25,9 @@ enum class EngineKind {
   check,  ///< the kernels of the device engine, run on the host: see device/README.md
 };
 
+/// As a case names it.
+const char* engine_name(EngineKind kind);
+
 /// Why an engine cannot be used here: not built in, no device. Empty: it can.
 std::string why_no_engine(EngineKind kind);
 

@@ -6,6 +6,17 @@
 
 namespace qdem {
 
+const char* engine_name(EngineKind kind) {
+  switch (kind) {
+    case EngineKind::cuda:
+      return "cuda";
+    case EngineKind::check:
+      return "check";
+    default:
+      return "cpu";
+  }
+}
+
 std::string why_no_engine(EngineKind kind) {
   return kind == EngineKind::cuda ? why_no_cuda() : "";
 }

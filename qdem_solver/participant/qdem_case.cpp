@@ -74,8 +74,10 @@ Interaction read_interaction(const Section& qdem) {
 
 EngineKind read_engine(const Section& qdem) {
   const std::string name = qdem.choice_or("engine", "cpu", {"cpu", "cuda", "check"});
-  if (name == "cuda") return EngineKind::cuda;
-  return name == "check" ? EngineKind::check : EngineKind::cpu;
+  for (const EngineKind kind : {EngineKind::cuda, EngineKind::check}) {
+    if (name == engine_name(kind)) return kind;
+  }
+  return EngineKind::cpu;
 }
 
 void read_materials(const Section& qdem, BedPhysics& physics) {

@@ -104,6 +104,7 @@ std::vector<proto::Fact> TrackBed::facts() const {
   add("qdem.step_bound_s", step_bound_);
   add("qdem.largest_step_s", largest_step_);
   add("qdem.damping_step_factor", bound_->viscosity_factor(bed_.state, engine_->contacts(), touching_gap()));
+  facts.push_back({"qdem.engine", std::nullopt, engine_name(settings_.engine)});
   add("qdem.threads", settings_.threads > 0 ? settings_.threads : omp_get_max_threads());
   return facts;
 }

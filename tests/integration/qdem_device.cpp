@@ -39,7 +39,7 @@ class Device : public testing::TestWithParam<EngineKind> {
 };
 
 std::string name_of(const testing::TestParamInfo<EngineKind>& of) {
-  return of.param == EngineKind::cuda ? "cuda" : "check";
+  return qdem::engine_name(of.param);
 }
 INSTANTIATE_TEST_SUITE_P(Backends, Device, testing::Values(EngineKind::check, EngineKind::cuda), name_of);
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "qdem_solver/engine/device/buffer.hpp"
+#include "qdem_solver/engine/device/kernels/list_rows.hpp"
 #include "qdem_solver/engine/device/kernels/search.hpp"
 #include "qdem_solver/engine/device/tables.hpp"
 

@@ -84,13 +84,7 @@ class March : public Stepper {
       force_.resize(model_.n_values), sums_.resize(BodySums::n_values * arrays_.tables().n_chunks);
       rigid_.resize(model_.bodies.size());
     }
-    for (int c = 0; c < 3; ++c) {
-      loads_.gravity[c] = model_.gravity[c];
-      loads_.load_density[c] =
-          model_.pad_body < 0 ? 0.0 : model_.pad_body_load[c] / model_.shape(model_.pad_body).volume();
-    }
-    loads_.local_damping = relaxing() ? 0.0 : model_.local_damping;
-    loads_.drag = model_.drag_per_s;
+    loads_ = make_loads(model_);
     clock_.put({Clock{}});
   }
 

@@ -105,6 +105,13 @@ struct PlaneNow {
         friction(plane.friction) {}
 };
 
+/// Numbers of the model that may change between calls.
+struct Loads {
+  double gravity[3];
+  double local_damping, drag;
+  double load_density[3];  ///< Model::pad_body_load over the pad body's volume at scale 1 [N/m3]
+};
+
 /// Mutable arrays of a state, laid out like State's.
 struct MotionView {
   Pointer<double> x, v, a;
@@ -115,7 +122,7 @@ struct MotionView {
 struct Clock {
   std::int64_t done;  ///< steps
   int stale;          ///< a body or plane has moved by half the skin
-  int blown;          ///< 1 + the body whose motion is not finite
+  int blown;          ///< a motion is not finite
   int halted;         ///< the step in which that happened is over
 };
 

@@ -163,4 +163,16 @@ std::vector<PlaneRecord> make_plane_records(const Model& model) {
   return records;
 }
 
+Loads make_loads(const Model& model) {
+  Loads loads{};
+  for (int c = 0; c < 3; ++c) loads.gravity[c] = model.gravity[c];
+  loads.local_damping = model.inertia.empty() ? model.local_damping : 0.0;
+  loads.drag = model.drag_per_s;
+  if (model.pad_body < 0) return loads;
+  for (int c = 0; c < 3; ++c) {
+    loads.load_density[c] = model.pad_body_load[c] / model.shape(model.pad_body).volume();
+  }
+  return loads;
+}
+
 }  // namespace qdem::device

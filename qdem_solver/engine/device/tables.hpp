@@ -36,5 +36,6 @@ struct PadTables {
 PadTables make_pad_tables(const Model& model);
 
 std::vector<PlaneRecord> make_plane_records(const Model& model);
+Loads make_loads(const Model& model);
 
 }  // namespace qdem::device

@@ -6,13 +6,6 @@
 
 namespace qdem::device {
 
-/// Numbers of the model that may change between calls.
-struct Loads {
-  double gravity[3];
-  double local_damping, drag;
-  double load_density[3];  ///< Model::pad_body_load over the pad body's volume at scale 1 [N/m3]
-};
-
 /// All forces on one particle, gathered in a fixed order: contacts, pads, load, elements.
 struct ParticleForces {
   ModelView model;

@@ -7,11 +7,10 @@
 #pragma once
 
 #include "qdem_solver/contact/closest_point.hpp"
+#include "qdem_solver/engine/device/kernels/bisection.hpp"
 #include "qdem_solver/engine/device/kernels/contact.hpp"
 
 namespace qdem::device {
-
-using Count = long long;
 
 struct BoxRecord {
   double low[3], high[3];
@@ -33,17 +32,6 @@ HOUSE_HOST_DEVICE inline void grow(BoxRecord& box, const Eigen::Vector3d& x) {
 
 HOUSE_HOST_DEVICE inline BoxRecord box_at(const Eigen::Vector3d& x) {
   return {{x[0], x[1], x[2]}, {x[0], x[1], x[2]}};
-}
-
-/// Largest i with offsets[i] <= value, of n + 1 ascending offsets; offsets[0] <= value < offsets[n].
-template <class Offset>
-HOUSE_HOST_DEVICE inline std::int64_t part_of(const Offset* offsets, std::int64_t n, std::int64_t value) {
-  std::int64_t low = 0, high = n;
-  while (high - low > 1) {
-    const std::int64_t middle = (low + high) / 2;
-    (static_cast<std::int64_t>(offsets[middle]) <= value ? low : high) = middle;
-  }
-  return low;
 }
 
 /// What the search reads.
@@ -232,101 +220,6 @@ struct FillTriangles {
     if (key.is_plane() || key.is_edge_pair()) return;
     int* next = at(triangles) + at(offsets)[entry];
     visit_triangles(at, view, key.body_a, key.feature_a, key.body_b, [&](int triangle) { *next++ = triangle; });
-  }
-};
-
-/// Items: entries of the new list. Slips of the old list at the new keys; a key without history starts unstretched.
-struct CarrySlip {
-  Pointer<const ContactKey> keys, old_keys;
-  Pointer<const double> old_slip;
-  std::int64_t n_old;
-  Pointer<double> slip;
-
-  HOUSE_HOST_DEVICE void operator()(const Access& at, std::int64_t entry) const {
-    const ContactKey key = at(keys)[entry];
-    std::int64_t low = 0, high = n_old;
-    while (low < high) {
-      const std::int64_t middle = (low + high) / 2;
-      if (at(old_keys)[middle] < key) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    const bool known = low < n_old && at(old_keys)[low] == key;
-    for (int c = 0; c < 3; ++c) at(slip)[3 * entry + c] = known ? at(old_slip)[3 * low + c] : 0.0;
-  }
-};
-
-/// Items: entries. The particles that an entry may act on: counts [item], or row * 2^32 + 2 * entry + side from
-/// offsets [item] on; a particle may come twice.
-struct TouchedRows {
-  ModelView model;
-  ListView list;
-  Pointer<Count> counts;
-  Pointer<const Count> offsets;
-  Pointer<unsigned long long> rows;
-  bool counting;
-
-  HOUSE_HOST_DEVICE void operator()(const Access& at, std::int64_t entry) const {
-    const ContactKey key = at(list.keys)[entry];
-    Count next = counting ? 0 : at(offsets)[entry];
-    if (key.is_edge_pair()) {
-      const Edge& a = skin_of(at, model, key.body_a).edges[key.feature_a];
-      for (int k = 0; k < 2; ++k) put(at, key.body_a, a.nodes[k], 2 * entry, next);
-      const BodySkin b = skin_of(at, model, key.body_b);
-      put_corners(at, key.body_b, b.triangles[b.edges[key.feature_b].triangles[0]], 2 * entry + 1, next);
-    } else {
-      put(at, key.body_a, key.feature_a, 2 * entry, next);
-      for (int i = at(list.triangle_offsets)[entry]; i < at(list.triangle_offsets)[entry + 1]; ++i) {
-        const BodySkin b = skin_of(at, model, key.body_b);
-        put_corners(at, key.body_b, b.triangles[at(list.triangles)[i]], 2 * entry + 1, next);
-      }
-    }
-    if (counting) at(counts)[entry] = next;
-  }
-
- private:
-  HOUSE_HOST_DEVICE void put(const Access& at, int body, int node, std::int64_t code, Count& next) const {
-    if (!counting) {
-      const BodyRecord& record = at(model.bodies)[body];
-      const std::int64_t row = record.row + std::int64_t{node} * record.lanes;
-      at(rows)[next] = static_cast<unsigned long long>(row) << 32 | static_cast<unsigned long long>(code);
-    }
-    ++next;
-  }
-  HOUSE_HOST_DEVICE void put_corners(const Access& at, int body, const Triangle& triangle, std::int64_t code,
-                                     Count& next) const {
-    for (int k = 0; k < 3; ++k) put(at, body, triangle.nodes[k], code, next);
-  }
-};
-
-/// Items: rows and one more. Where a row begins among the sorted `rows`.
-struct RowOffsets {
-  Pointer<const unsigned long long> rows;
-  std::int64_t n;
-  Pointer<int> offsets;
-
-  HOUSE_HOST_DEVICE void operator()(const Access& at, std::int64_t row) const {
-    std::int64_t low = 0, high = n;
-    while (low < high) {
-      const std::int64_t middle = (low + high) / 2;
-      if (static_cast<std::int64_t>(at(rows)[middle] >> 32) < row) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    at(offsets)[row] = static_cast<int>(low);
-  }
-};
-
-/// Items: sorted `rows`.
-struct RowEntries {
-  Pointer<const unsigned long long> rows;
-  Pointer<unsigned> entries;
-  HOUSE_HOST_DEVICE void operator()(const Access& at, std::int64_t i) const {
-    at(entries)[i] = static_cast<unsigned>(at(rows)[i] & 0xffffffffu);
   }
 };
 
