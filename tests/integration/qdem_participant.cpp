@@ -146,6 +146,19 @@ TEST(QdemParticipant, RollbackRepeatsTheWindowBitwiseOnADevice) {
   expect_rollback_repeats("threads = 1\nengine = \"check\"\n");
 }
 
+TEST(QdemParticipant, RestoreRepeatsTheWindowBitwiseOnADevice) {
+  Driver driver("threads = 1\nengine = \"check\"\n");
+  driver.relax(20);
+  driver.participant_.start();
+  for (int n = 0; n < 3; ++n) driver.march(n), driver.commit(n);
+  const std::string path = folder() + "/saved.h5";
+  const auto hash = driver.participant_.save({3, path});
+  const auto first = driver.march(3);
+  driver.participant_.restore({3, path, hash});
+  const auto second = driver.march(3);
+  for (const auto& values : first.all()) EXPECT_EQ(values.values, second.get(values.name)) << values.name;
+}
+
 TEST(QdemParticipant, TheDeviceEngineMarchesAsTheCpuEngine) {
   Driver cpu("threads = 1\n"), device("threads = 1\nengine = \"check\"\n");
   for (Driver* driver : {&cpu, &device}) {
