@@ -32,9 +32,8 @@ const char* engine_name(EngineKind kind);
 std::string why_no_engine(EngineKind kind);
 
 struct EngineOptions {
-  int threads = 0;  ///< OpenMP threads; 0: as many as the environment gives
-  std::function<void()> on_step =
-      {};  ///< called after every step, e.g. to bump a work counter; on a device after the call's last one
+  int threads = 0;                     ///< OpenMP threads; 0: as many as the environment gives
+  std::function<void()> on_step = {};  ///< called after every step, for a device after a call's last; bumps a counter
   EngineKind kind = EngineKind::cpu;
   std::uint64_t check_seed = 1;  ///< of the order in which `check` runs the items of a kernel; 0: ascending
 };

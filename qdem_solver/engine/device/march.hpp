@@ -90,7 +90,7 @@ class March : public Stepper {
 
   /// Makes the arrays of `state` the current ones, and this state's alone.
   void take(State& state) {
-    const auto held = std::dynamic_pointer_cast<Now>(std::move(state.resident));
+    const auto held = std::dynamic_pointer_cast<Now>(state.resident);
     state.resident.reset();
     const bool ours = held && held->owner == owner_ && state.contact.list_id != 0;
     const bool continues = ours && held->version == version_;
