@@ -12,6 +12,11 @@ contract_test(schema_documented bash ${contract}/schema_documented.sh ${PROJECT_
               ${PROJECT_SOURCE_DIR}/proto/README.md)
 contract_test(schema_documented_control bash ${contract}/schema_documented_control.sh
               ${PROJECT_SOURCE_DIR}/proto/schema/coupling.fbs)
+contract_test(device_dereference bash ${contract}/device_dereference.sh ${PROJECT_SOURCE_DIR})
+add_test(NAME contract_cuda_build COMMAND bash ${contract}/cuda_build.sh ${PROJECT_SOURCE_DIR}
+         "$<TARGET_FILE:qdem_engine>;$<TARGET_FILE:qdem_contact>;$<TARGET_FILE:qdem_model>;$<TARGET_FILE:proto_case>"
+         ${PROJECT_BINARY_DIR}/cuda_build /usr/include/eigen3)
+set_tests_properties(contract_cuda_build PROPERTIES LABELS contract TIMEOUT 600 SKIP_RETURN_CODE 77)
 if(TARGET coupler AND TARGET qdem_solver AND TARGET fem_solver)
   contract_test(cases_accepted bash ${contract}/cases_accepted.sh $<TARGET_FILE:coupler> ${PROJECT_SOURCE_DIR})
 endif()

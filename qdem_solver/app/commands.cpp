@@ -14,6 +14,7 @@
 #include "proto/case/case_file.hpp"
 #include "proto/error.hpp"
 #include "qdem_solver/bed/stone_export.hpp"
+#include "qdem_solver/bench/device_report.hpp"
 #include "qdem_solver/bench/report.hpp"
 #include "qdem_solver/contact/entry_laws.hpp"
 #include "qdem_solver/output/bed_file.hpp"
@@ -37,6 +38,15 @@ void print_facts(const std::vector<proto::Fact>& facts) {
   for (const auto& fact : facts) {
     fmt::print("  {:32} {}\n", fact.key, fact.number ? fmt::format("{:.6g}", *fact.number) : fact.text);
   }
+}
+
+void print_ledger(const EnergyBalance& energy, double largest_residual) {
+  fmt::print(
+      "energy                    {:.4g} J of work; dissipated: elements {:.3g}, contact dashpots {:.3g}, "
+      "friction {:.3g} J\n",
+      energy.work, energy.viscous, energy.contact_dashpots, energy.friction);
+  fmt::print("energy residual           {:.2e} of {:.3g} J that were moved, {:.2e} at most\n", energy.relative(),
+             energy.scale, largest_residual);
 }
 
 }  // namespace
@@ -84,12 +94,7 @@ void run_command(const std::string& case_path, const std::string& out) {
   fmt::print("sleeper at the seats      {:.4f} mm along their normal\n", 1e3 * figures.sleeper_displacement);
   fmt::print("pad force on the sleeper  {:.1f} N along the normal\n", figures.pad_force);
   fmt::print("kinetic energy            {:.3e} J\n", energy.stored.kinetic);
-  fmt::print(
-      "energy                    {:.4g} J of work; dissipated: elements {:.3g}, contact dashpots {:.3g}, "
-      "friction {:.3g} J\n",
-      energy.work, energy.viscous, energy.contact_dashpots, energy.friction);
-  fmt::print("energy residual           {:.2e} of {:.3g} J that were moved, {:.2e} at most\n", energy.relative(),
-             energy.scale, figures.largest_residual);
+  if (energy.open) print_ledger(energy, figures.largest_residual);
   fmt::print("coordination number       {:.2f}\n", figures.coordination_number);
   if (!figures.output.empty()) fmt::print("fields                    {}\n", figures.output);
 }
@@ -131,6 +136,10 @@ void bench_command(const std::string& case_path, const std::string& json_path) {
   if (!out.flush()) {
     throw proto::Error(proto::ExitCode::cannot_create, "the report cannot be written", json_path);
   }
+}
+
+void device_bench_command() {
+  fmt::print("{}", bench::device_table());
 }
 
 void stones_command(const std::string& case_path, const std::string& folder, const bed::Roughness& roughness) {

@@ -29,6 +29,10 @@ void bed_command(const std::string& case_path, const std::string& path);
 /// file. With `case_path` not empty the costs of contact are those of its bed.
 void bench_command(const std::string& case_path, const std::string& json_path);
 
+/// `qdem_solver bench --cuda`: rates of the CUDA engine, as a table. Throws proto::Error (unavailable) without a
+/// device.
+void device_bench_command();
+
 /// `qdem_solver stones`: the case's stone templates as STL files in `folder`, which is created when missing.
 void stones_command(const std::string& case_path, const std::string& folder, const bed::Roughness& roughness);
 

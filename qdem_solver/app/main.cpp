@@ -20,6 +20,7 @@ namespace {
 struct Arguments {
   std::string case_path, endpoint, out = ".", name = "qdem", bed_path = "bed.h5", stones = "stones", json_path;
   qdem::bed::Roughness roughness;
+  bool on_cuda = false;
 };
 
 void check(const Arguments& arguments) {
@@ -55,7 +56,11 @@ int run(int argc, char** argv) {
   auto* bench = app.add_subcommand("bench", "measure the solver's rates beside those of the machine");
   bench->add_option("--case", arguments.case_path, "case whose bed is stepped");
   bench->add_option("--json", arguments.json_path, "file for the figures");
-  bench->callback([&] { qdem::bench_command(arguments.case_path, arguments.json_path); });
+  bench->add_flag("--cuda", arguments.on_cuda, "only the rates of the CUDA engine");
+  bench->callback([&] {
+    if (arguments.on_cuda) return qdem::device_bench_command();
+    qdem::bench_command(arguments.case_path, arguments.json_path);
+  });
 
   auto* stones = app.add_subcommand("stones", "write the case's stone templates as STL, in mm at the sieve size d50");
   stones->add_option("case", arguments.case_path, "case file")->required();

@@ -8,7 +8,6 @@
 #include <ctime>
 
 #include "qdem_solver/bench/machine_rates.hpp"
-#include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/engine/stability.hpp"
 
 namespace qdem::bench {
@@ -38,6 +37,18 @@ Rate step_rate(Scene& scene, int n_rounds) {
     const Clock clock;
     engine.advance(scene.state, tiny_step, 1);
     best = {std::max(best.wall, 1 / clock.wall()), std::max(best.cpu, 1 / clock.cpu()), std::max(best.flops, flops)};
+  }
+  return best;
+}
+
+double call_rate(Scene& scene, const EngineOptions& options, int n_rounds, int n_steps) {
+  Engine engine(scene.model, options);
+  engine.prepare(scene.state);
+  double best = 0.0;
+  for (int round = 0; round < n_rounds; ++round) {
+    const Clock clock;
+    engine.advance(scene.state, tiny_step, n_steps);
+    best = std::max(best, n_steps / clock.wall());
   }
   return best;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "qdem_solver/bench/scenes.hpp"
+#include "qdem_solver/engine/engine.hpp"
 
 namespace qdem::bench {
 
@@ -15,6 +16,9 @@ struct Rate {
 /// Whole steps a second of one thread, so small that the scene stays where it is: the cost of a step does not depend on
 /// its length. A round is one step.
 Rate step_rate(Scene& scene, int n_rounds);
+
+/// Steps a second of any engine by the wall clock [1/s]; a round is one call of `n_steps`.
+double call_rate(Scene& scene, const EngineOptions& options, int n_rounds, int n_steps);
 
 /// Rate of two threads over that of one by the wall clock, their steps in turn.
 double two_thread_speedup(Scene& scene);

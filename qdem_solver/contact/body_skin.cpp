@@ -12,9 +12,14 @@ std::vector<BodySkin> make_skins(const Model& model) {
   std::vector<BodySkin> skins;
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
     const double scale = model.bodies[b].scale;
-    skins.push_back({&model.shape(b), model.index(b, 0), model.stride(b),
-                     model.material(b).density * scale * scale * scale, model.body_mass(b),
-                     radii[model.bodies[b].template_id]});
+    const Template& shape = model.shape(b);
+    const SkinView view{shape.triangles.data(),
+                        shape.edges.data(),
+                        model.index(b, 0),
+                        model.stride(b),
+                        model.material(b).density * scale * scale * scale,
+                        model.body_mass(b)};
+    skins.push_back({view, &shape, radii[model.bodies[b].template_id]});
   }
   return skins;
 }

@@ -20,12 +20,6 @@
 namespace qdem {
 namespace {
 
-std::uint64_t list_hash(const ContactState& contact) {
-  const auto keys = XXH3_64bits(contact.keys.data(), contact.keys.size() * sizeof(ContactKey));
-  const auto hash = XXH3_64bits_withSeed(contact.triangles.data(), contact.triangles.size() * sizeof(int), keys);
-  return hash == 0 ? 1 : hash;
-}
-
 /// Elongations of springs of the old list at the keys of the new one; a key without history starts unstretched.
 std::vector<Eigen::Vector3d> carried(const std::vector<ContactKey>& old_keys, const std::vector<Eigen::Vector3d>& old,
                                      const std::vector<ContactKey>& keys) {
@@ -39,6 +33,17 @@ std::vector<Eigen::Vector3d> carried(const std::vector<ContactKey>& old_keys, co
 }
 
 }  // namespace
+
+double candidate_skin(const ContactLaw& law) {
+  if (law.skin > 0) return law.skin;
+  return law.rounding > 0 ? law.rounding : 1e-3;
+}
+
+std::uint64_t candidate_list_id(const ContactState& contact) {
+  const auto keys = XXH3_64bits(contact.keys.data(), contact.keys.size() * sizeof(ContactKey));
+  const auto hash = XXH3_64bits_withSeed(contact.triangles.data(), contact.triangles.size() * sizeof(int), keys);
+  return hash == 0 ? 1 : hash;
+}
 
 struct ContactStage::Data {
   const Model& model;
@@ -141,11 +146,7 @@ struct ContactStage::Data {
   }
 };
 
-ContactStage::ContactStage(const Model& model) {
-  double skin = model.contact.skin;
-  if (!(skin > 0)) skin = model.contact.rounding > 0 ? model.contact.rounding : 1e-3;
-  data_ = std::make_unique<Data>(model, skin);
-}
+ContactStage::ContactStage(const Model& model) : data_(std::make_unique<Data>(model, candidate_skin(model.contact))) {}
 ContactStage::~ContactStage() = default;
 
 bool ContactStage::update_candidates(State& state, const std::vector<double>& moves) {
@@ -167,7 +168,7 @@ bool ContactStage::update_candidates(State& state, const std::vector<double>& mo
   std::fill(contact.travel.begin(), contact.travel.end(), 0.0);
   contact.rebuild_time = state.time;
   ++contact.rebuilds;
-  contact.list_id = list_hash(contact);
+  contact.list_id = candidate_list_id(contact);
   d.list_id = 0;  // an equal list of an earlier time has other wake travels
   d.fit_scratch(contact);
   return true;
@@ -207,6 +208,24 @@ ContactPower ContactStage::compute(State& state, double dt) {
   ContactPower sum;
   for (const ContactPower& power : d.powers) sum.dashpot += power.dashpot, sum.friction += power.friction;
   return sum;
+}
+
+void ContactStage::adopt(const State& state, std::vector<EntryForce> forces) {
+  Data& d = *data_;
+  d.list_id = 0;  // wake travels of an earlier list do not hold
+  d.forces = std::move(forces);
+  d.fit_scratch(state.contact);
+  d.follow(state);
+  for (std::int64_t chunk = 0; chunk < d.live.n_chunks(); ++chunk) {
+    const auto [first, last] = d.live.chunk(chunk);
+    std::int64_t* const live = d.live.begin_chunk(chunk);
+    std::int64_t n_live = 0;
+    for (std::int64_t i = first; i < last; ++i) {
+      if (d.forces[i].live) live[n_live++] = i;
+    }
+    d.live.end_chunk(chunk, n_live);
+  }
+  d.live.sort_by_body(state.contact.keys);
 }
 
 void ContactStage::gather(int body, proto::Span<double> force) const {

@@ -40,6 +40,14 @@ inline double near_gap(const ContactLaw& law) {
   return 0.1 * law.rounding;
 }
 
+/// How much farther than touching the candidate list reaches [m].
+double candidate_skin(const ContactLaw& law);
+
+/// ContactState::list_id of a list; never 0.
+std::uint64_t candidate_list_id(const ContactState& contact);
+
+struct EntryForce;
+
 /// Finds contacts and computes their forces. Holds scratch only; all history lives in the State.
 /// Every sum is taken in an order fixed by the candidate list, so results do not depend on the number of threads.
 class ContactStage {
@@ -58,6 +66,10 @@ class ContactStage {
   /// Forces of all contacts at positions state.x and velocities state.v; advances slip and roll by dt [s]. Runs with
   /// the calling program's OpenMP threads. Returns what the contacts dissipate.
   ContactPower compute(State& state, double dt);
+
+  /// Takes the forces of the state's list, one an entry, as somebody else computed them: gather(), rates() and report()
+  /// are then of these.
+  void adopt(const State& state, std::vector<EntryForce> forces);
 
   /// Adds the contact forces on the nodes of `body` to `force` [N], an array laid out like state.x.
   void gather(int body, proto::Span<double> force) const;

@@ -14,12 +14,12 @@ namespace qdem {
 /// Current geometry of an edge of a skin.
 struct EdgeNow {
   std::array<Eigen::Vector3d, 2> x;
-  EdgeNow(const BodySkin& skin, const double* positions, int edge) {
-    const auto& nodes = skin.shape->edges[edge].nodes;
+  HOUSE_HOST_DEVICE EdgeNow(const SkinView& skin, const double* positions, int edge) {
+    const auto& nodes = skin.edges[edge].nodes;
     for (int k = 0; k < 2; ++k) x[k] = skin.at(positions, nodes[k]);
   }
-  Eigen::Vector3d direction() const { return x[1] - x[0]; }
-  Eigen::Vector3d at(double s) const { return x[0] + s * direction(); }
+  HOUSE_HOST_DEVICE Eigen::Vector3d direction() const { return x[1] - x[0]; }
+  HOUSE_HOST_DEVICE Eigen::Vector3d at(double s) const { return x[0] + s * direction(); }
 };
 
 /// Outward direction of an edge: bisector of its two face normals, and the angle between it and either of them.
@@ -27,15 +27,15 @@ struct EdgeWedge {
   Eigen::Vector3d outward;
   double cos_half;  ///< cosine of half the angle between the face normals
   std::array<TriangleNow, 2> faces;
-  EdgeWedge(const BodySkin& skin, const double* positions, int edge)
-      : faces{TriangleNow(skin, positions, skin.shape->edges[edge].triangles[0]),
-              TriangleNow(skin, positions, skin.shape->edges[edge].triangles[1])} {
+  HOUSE_HOST_DEVICE EdgeWedge(const SkinView& skin, const double* positions, int edge)
+      : faces{TriangleNow(skin, positions, skin.edges[edge].triangles[0]),
+              TriangleNow(skin, positions, skin.edges[edge].triangles[1])} {
     const Eigen::Vector3d n0 = faces[0].area_vector.normalized(), n1 = faces[1].area_vector.normalized();
     outward = (n0 + n1).normalized();
     cos_half = outward.dot(n0);
   }
   /// Least height of the two faces [m].
-  double height() const {
+  HOUSE_HOST_DEVICE double height() const {
     double least2 = std::numeric_limits<double>::infinity();
     for (const TriangleNow& face : faces) {
       for (int k = 0; k < 3; ++k) {
@@ -46,11 +46,11 @@ struct EdgeWedge {
     return std::sqrt(least2);
   }
   /// Angle from the normal to the nearer face normal's side, negative between the two [rad].
-  double beyond(const Eigen::Vector3d& normal) const {
+  HOUSE_HOST_DEVICE double beyond(const Eigen::Vector3d& normal) const {
     return std::acos(std::clamp(outward.dot(normal), -1.0, 1.0)) - std::acos(std::min(cos_half, 1.0));
   }
   /// 1 for a normal between the two face normals and up to 15 degrees beyond, 0 from 30 degrees beyond.
-  double facing(const Eigen::Vector3d& normal) const {
+  HOUSE_HOST_DEVICE double facing(const Eigen::Vector3d& normal) const {
     if (outward.dot(normal) >= cos_half) return 1.0;
     const double t = std::clamp((beyond(normal) - M_PI / 12) / (M_PI / 12), 0.0, 1.0);
     return 1 - t * t * (3 - 2 * t);
@@ -75,7 +75,7 @@ struct EdgeContact {
   EdgeEnd end;                                       ///< the deepest end
   double gap = 0.0;  ///< while not touching: the two sides cannot touch before they moved so far together [m]
   /// Share of the contact that the nodes do not carry already.
-  double share() const {
+  HOUSE_HOST_DEVICE double share() const {
     const double r = end.side < 0 ? 0.0 : end.overlap / overlap;
     return facing * (1 - r * r);
   }
@@ -84,7 +84,8 @@ struct EdgeContact {
 /// The end of either edge with the largest overlap against the other edge, for reach 2r. Through `d`, the signed
 /// distance of the crossing, and l, the distance across the normal, an end is sqrt(d^2 + l^2) away outside and d + l
 /// inside.
-inline EdgeEnd deepest_end(const EdgeNow& a, const EdgeNow& b, const Eigen::Vector3d& normal, double d, double reach) {
+HOUSE_HOST_DEVICE inline EdgeEnd deepest_end(const EdgeNow& a, const EdgeNow& b, const Eigen::Vector3d& normal,
+                                             double d, double reach) {
   EdgeEnd best;
   for (int side = 0; side < 2; ++side) {
     const EdgeNow &own = side == 0 ? a : b, &other = side == 0 ? b : a;
@@ -104,15 +105,15 @@ inline EdgeEnd deepest_end(const EdgeNow& a, const EdgeNow& b, const Eigen::Vect
 }
 
 /// How fast the common normal of two edges turns as their sides move by T together: at most T times this [1/m].
-inline double turning(double length, double sine) {
+HOUSE_HOST_DEVICE inline double turning(double length, double sine) {
   return 2 / (length * sine);
 }
 
 /// How far the two sides must move together before lines that cross outside a segment cross inside both: the end that
 /// the other line passes has to come to it across the normal, while the normal turns and the lines are at most `reach`
 /// apart. Half of that, for what is not linear in it. 0 for edges that are nearly parallel.
-inline double movement_to_cross(const Eigen::Vector3d& da, const Eigen::Vector3d& db, const LinePair& pair,
-                                double reach) {
+HOUSE_HOST_DEVICE inline double movement_to_cross(const Eigen::Vector3d& da, const Eigen::Vector3d& db,
+                                                  const LinePair& pair, double reach) {
   const double aa = da.squaredNorm(), bb = db.squaredNorm(), ab = da.dot(db);
   const double sine2 = 1 - ab * ab / (aa * bb);
   if (!(sine2 > 1e-4)) return 0.0;
@@ -123,8 +124,9 @@ inline double movement_to_cross(const Eigen::Vector3d& da, const Eigen::Vector3d
 }
 
 /// The same for a normal that lies outside a wedge, whichever way it points: it must turn, or the faces must.
-inline double movement_to_face(const Eigen::Vector3d& da, const Eigen::Vector3d& db, const EdgeWedge& a,
-                               const EdgeWedge& b, const Eigen::Vector3d& normal) {
+HOUSE_HOST_DEVICE inline double movement_to_face(const Eigen::Vector3d& da, const Eigen::Vector3d& db,
+                                                 const EdgeWedge& a, const EdgeWedge& b,
+                                                 const Eigen::Vector3d& normal) {
   const double aa = da.squaredNorm(), bb = db.squaredNorm(), ab = da.dot(db);
   const double sine = std::sqrt(std::max(1 - ab * ab / (aa * bb), 1e-4));
   const double outside =
@@ -138,8 +140,8 @@ inline double movement_to_face(const Eigen::Vector3d& da, const Eigen::Vector3d&
 /// The energy of an edge contact is k/2 (overlap^2 - overlap_end^2), with the deepest end's overlap: what the end's own
 /// contact as a node does not hold already. It fades out as the nearest point slides off an edge and as edges become
 /// parallel, so that no force jumps there and no contact counts twice.
-inline EdgeContact touch_edges(const BodySkin& skin_a, int edge_a, const BodySkin& skin_b, int edge_b,
-                               const double* positions, double reach) {
+HOUSE_HOST_DEVICE inline EdgeContact touch_edges(const SkinView& skin_a, int edge_a, const SkinView& skin_b, int edge_b,
+                                                 const double* positions, double reach) {
   EdgeContact result;
   const EdgeNow a(skin_a, positions, edge_a), b(skin_b, positions, edge_b);
   const Eigen::Vector3d da = a.direction(), db = b.direction();

@@ -32,8 +32,8 @@ struct Motion {
 
 namespace detail {
 
-inline std::array<Eigen::Vector3d, 3> corner_velocities(const BodySkin& skin, const double* v,
-                                                        const std::array<int, 3>& nodes) {
+HOUSE_HOST_DEVICE inline std::array<Eigen::Vector3d, 3> corner_velocities(const SkinView& skin, const double* v,
+                                                                          const std::array<int, 3>& nodes) {
   return {skin.at(v, nodes[0]), skin.at(v, nodes[1]), skin.at(v, nodes[2])};
 }
 
@@ -41,8 +41,9 @@ inline std::array<Eigen::Vector3d, 3> corner_velocities(const BodySkin& skin, co
 
 /// Node of a against the skin of b over candidate triangles [first, last). The normal force acts along the line of the
 /// node and its nearest point; the tangential force at the node, to which the triangle is extended as a rigid frame.
-inline EntryForce push_node(const ContactLaw& law, const BodySkin& a, int node, const BodySkin& b, const int* first,
-                            const int* last, const Motion& motion, Eigen::Vector3d& slip) {
+HOUSE_HOST_DEVICE inline EntryForce push_node(const ContactLaw& law, const SkinView& a, int node, const SkinView& b,
+                                              const int* first, const int* last, const Motion& motion,
+                                              Eigen::Vector3d& slip) {
   EntryForce result;
   const Eigen::Vector3d p = a.at(motion.x, node);
   const SurfacePoint point = nearest_surface_point(b, motion.x, p, first, last);
@@ -52,7 +53,7 @@ inline EntryForce push_node(const ContactLaw& law, const BodySkin& a, int node, 
     result.gap = point.triangle < 0 ? 1.0 : -overlap;
     return result;
   }
-  const auto& corners = b.shape->triangles[point.triangle].nodes;
+  const auto& corners = b.triangles[point.triangle].nodes;
   const TriangleFrame frame(TriangleNow(b, motion.x, point.triangle), p);
   const auto vb = detail::corner_velocities(b, motion.v, corners);
   const Eigen::Vector3d va = a.at(motion.v, node);
@@ -79,8 +80,8 @@ inline EntryForce push_node(const ContactLaw& law, const BodySkin& a, int node, 
 
 /// Edge of a against edge of b. The tangential force acts at the point of a; b's side goes to its first adjacent
 /// triangle, extended as a rigid frame.
-inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_a, const BodySkin& b, int edge_b,
-                             const Motion& motion, Eigen::Vector3d& slip) {
+HOUSE_HOST_DEVICE inline EntryForce push_edges(const ContactLaw& law, const SkinView& a, int edge_a, const SkinView& b,
+                                               int edge_b, const Motion& motion, Eigen::Vector3d& slip) {
   EntryForce result;
   const double reach = 2 * law.rounding;
   const EdgeContact contact = touch_edges(a, edge_a, b, edge_b, motion.x, reach);
@@ -89,10 +90,10 @@ inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_
     result.gap = contact.gap;
     return result;
   }
-  const auto& ends_a = a.shape->edges[edge_a].nodes;
-  const auto& ends_b = b.shape->edges[edge_b].nodes;
-  const int face = b.shape->edges[edge_b].triangles[0];
-  const auto& corners = b.shape->triangles[face].nodes;
+  const auto& ends_a = a.edges[edge_a].nodes;
+  const auto& ends_b = b.edges[edge_b].nodes;
+  const int face = b.edges[edge_b].triangles[0];
+  const auto& corners = b.triangles[face].nodes;
   const double wa[2] = {1 - contact.s, contact.s};
   std::array<double, 3> wb{};
   for (int k = 0; k < 3; ++k) {
@@ -156,9 +157,11 @@ inline EntryForce push_edges(const ContactLaw& law, const BodySkin& a, int edge_
   return result;
 }
 
-/// Node against a plane at its place of `time`.
-inline EntryForce push_on_plane(const ContactLaw& law, const BodySkin& a, int node, const Plane& plane, double time,
-                                const Motion& motion, Eigen::Vector3d& slip) {
+/// Node against a plane at its place of `time`. `AnyPlane` is a Plane, or its numbers on a device.
+template <class AnyPlane>
+HOUSE_HOST_DEVICE inline EntryForce push_on_plane(const ContactLaw& law, const SkinView& a, int node,
+                                                  const AnyPlane& plane, double time, const Motion& motion,
+                                                  Eigen::Vector3d& slip) {
   EntryForce result;
   const Eigen::Vector3d n = plane.normal;
   const double distance = n.dot(a.at(motion.x, node) - plane.point - time * plane.velocity);

@@ -19,8 +19,9 @@ struct SurfacePoint {
 /// Where the nearest point lies on an edge or a corner, several triangles share it. The one whose plane is farthest
 /// from p decides the sign: of the triangles around a nearest point it sees p from the right side (Baerentzen and
 /// Aanaes 2005 use angle-weighted normals for the same purpose). Equal distances are told by a relative 1e-8.
-inline SurfacePoint nearest_surface_point(const BodySkin& skin, const double* positions, const Eigen::Vector3d& p,
-                                          const int* first, const int* last) {
+HOUSE_HOST_DEVICE inline SurfacePoint nearest_surface_point(const SkinView& skin, const double* positions,
+                                                            const Eigen::Vector3d& p, const int* first,
+                                                            const int* last) {
   SurfacePoint result;
   TrianglePoint best{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0.0, false};
   double best_height = 0.0;  // of p over the plane of the triangle, signed

@@ -5,8 +5,9 @@
 
 namespace qdem {
 
-/// Engine::balance(). While the ledger is closed nothing has flowed, and the change is zero.
+/// Engine::balance(). While the ledger is closed no flow is counted: they are zero, and so is the change.
 struct EnergyBalance {
+  bool open = false;              ///< the ledger
   StoredEnergy stored;            ///< now [J]
   StoredEnergy change;            ///< since the ledger was opened [J]
   double work = 0.0;              ///< of pads and loads on the bodies [J]

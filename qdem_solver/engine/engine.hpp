@@ -1,4 +1,4 @@
-// The time integrator: forces of one model on one state, kick-drift-kick, on the CPU.
+// The time integrator: forces of one model on one state, kick-drift-kick, on the CPU or on a device.
 //
 // One step from t_n to t_n+1 = t_n + dt:
 //     x += dt (v + dt/2 a);  v_pred = v + dt a;  a_new = forces(x, v_pred)/m;  v += dt/2 (a + a_new)
@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "proto/span.hpp"
@@ -18,13 +19,31 @@
 
 namespace qdem {
 
+/// Who makes the steps.
+enum class EngineKind {
+  cpu,
+  cuda,   ///< a CUDA device
+  check,  ///< the kernels of the device engine, run on the host: see device/README.md
+};
+
+/// As a case names it.
+const char* engine_name(EngineKind kind);
+
+/// Why an engine cannot be used here: not built in, no device. Empty: it can.
+std::string why_no_engine(EngineKind kind);
+
+/// What of a model an engine does not know, as one would name it. Empty: it knows everything.
+std::string unknown_to_engine(EngineKind kind, const Model& model);
+
 struct EngineOptions {
   int threads = 0;                     ///< OpenMP threads; 0: as many as the environment gives
-  std::function<void()> on_step = {};  ///< called after every step, e.g. to bump a work counter
+  std::function<void()> on_step = {};  ///< called after every step, for a device after a call's last; bumps a counter
   /// One of so many steps, taken at random, samples the elements' viscous power, which the ledger takes as linear in
   /// between. Random, because a stone rings at periods of a few steps: samples at equal distances would meet the same
   /// phase again and again. 1: every step.
   int steps_per_viscous_sample = 16;
+  EngineKind kind = EngineKind::cpu;
+  std::uint64_t check_seed = 1;  ///< of the order in which `check` runs the items of a kernel; 0: ascending
 };
 
 /// Motion of the rail foot at the pad cells over one run of steps: linear from `begin` to `end`, values in order of
@@ -53,6 +72,7 @@ struct Energies {
 /// of threads.
 class Engine {
  public:
+  /// Throws proto::Error (unavailable) for a device that is not there, (config) for what a device cannot do.
   explicit Engine(const Model& model, EngineOptions options = {});
   ~Engine();
 
@@ -71,7 +91,7 @@ class Engine {
 
   /// Opens the energy ledger at `state`, whose contacts are those of the last step or prepare(): from now on work and
   /// dissipation are counted in the steps, by trapezoids as the integrator's own. Forces of moving planes, of
-  /// pad_body_load and of artificial damping are not in it.
+  /// pad_body_load and of artificial damping are not in it. A device counts no flows: its steps leave the ledger closed.
   void open_ledger(State& state) const;
   /// The ledger at `state`, the one of the last step.
   EnergyBalance balance(const State& state) const;

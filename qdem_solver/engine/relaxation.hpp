@@ -14,6 +14,12 @@ namespace qdem {
 /// their place, keep their true inertia. Those with more are made heavier.
 inline constexpr int resting_points = 1;
 
+/// Drag on deformation while relaxing [1/s]: in a step it takes this share of its velocity, times the local damping;
+/// strong for what the step resolves well, and a twentieth of the step's budget at most.
+inline double relaxation_drag(double local_damping, double dt) {
+  return dt > 0 ? 0.05 * local_damping / dt : 0.0;
+}
+
 /// Step that a stone of mean mass with `n_contacts` contact points takes at `safety` of its bound as a rigid body [s].
 ///
 /// Stones of rock are a hundred times stiffer than their contacts, and so limit the true step to a small part of this.

@@ -64,6 +64,7 @@ void exchange(proto::StateArchive& archive, const std::string& name, std::vector
 
 void exchange(proto::StateArchive& archive, const std::string& prefix, State& state) {
   const std::size_t n = state.x.size();
+  state.resident.reset();  // a device takes the values of the host anew
   archive(prefix + "step", state.step);
   archive(prefix + "time", state.time);
   archive(prefix + "x", state.x);

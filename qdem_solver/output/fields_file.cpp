@@ -48,7 +48,7 @@ std::vector<float> per_body(const Model& model, ValueOf value_of) {
 }
 
 proto::FieldSeriesOptions options_of(const Model& model, const std::vector<double>& points,
-                                     const proto::Attributes& attributes) {
+                                     const proto::Attributes& attributes, bool has_ledger) {
   using proto::Location;
   proto::FieldSeriesOptions options;
   options.mesh = mesh_of(model, points);
@@ -67,34 +67,38 @@ proto::FieldSeriesOptions options_of(const Model& model, const std::vector<doubl
                        {"kinetic_energy", "J", "of all particles", {}},
                        {"strain_energy", "J", "of all elements", {}},
                        {"contact_energy", "J", "of the contact springs", {}},
-                       {"gravity_energy", "J", "of all particles, from z = 0", {}},
-                       {"work_of_loads", "J", "of pads and loads on the bodies, since the start", {}},
-                       {"viscous_dissipation", "J", "in the elements, since the start", {}},
-                       {"contact_dissipation", "J", "of the contacts' dashpots, since the start", {}},
-                       {"friction_dissipation", "J", "of the contacts' sliders, since the start", {}},
-                       {"energy_residual", "J", "change of the energies plus dissipation minus work", {}},
-                       {"energy_residual_relative", "1", "the residual over the energy that was moved", {}},
-                       {"touching", "1", "contacts that carry a force", {}}};
+                       {"gravity_energy", "J", "of all particles, from z = 0", {}}};
+  if (has_ledger) {
+    options.histories.insert(options.histories.end(),
+                             {{"work_of_loads", "J", "of pads and loads on the bodies, since the start", {}},
+                              {"viscous_dissipation", "J", "in the elements, since the start", {}},
+                              {"contact_dissipation", "J", "of the contacts' dashpots, since the start", {}},
+                              {"friction_dissipation", "J", "of the contacts' sliders, since the start", {}},
+                              {"energy_residual", "J", "change of the energies plus dissipation minus work", {}},
+                              {"energy_residual_relative", "1", "the residual over the energy that was moved", {}}});
+  }
+  options.histories.push_back({"touching", "1", "contacts that carry a force", {}});
   options.attributes = attributes;
   return options;
 }
 
 }  // namespace
 
-FieldsFile::FieldsFile(const Model& model, std::vector<double> reference, proto::FieldSeriesFile file)
-    : model_(model), reference_(std::move(reference)), file_(std::move(file)) {}
+FieldsFile::FieldsFile(const Model& model, std::vector<double> reference, proto::FieldSeriesFile file, bool has_ledger)
+    : model_(model), reference_(std::move(reference)), file_(std::move(file)), has_ledger_(has_ledger) {}
 
 FieldsFile::FieldsFile(const std::string& path, const Model& model, const State& reference,
-                       const proto::Attributes& attributes)
+                       const proto::Attributes& attributes, bool has_ledger)
     : model_(model),
       reference_(in_point_order(model, reference.x)),
-      file_(proto::FieldSeriesFile::create(path, options_of(model, reference_, attributes))) {}
+      file_(proto::FieldSeriesFile::create(path, options_of(model, reference_, attributes, has_ledger))),
+      has_ledger_(has_ledger) {}
 
 FieldsFile FieldsFile::resume(const std::string& path, const Model& model, const State& reference,
-                              const proto::Attributes& attributes, std::uint64_t n_steps) {
+                              const proto::Attributes& attributes, std::uint64_t n_steps, bool has_ledger) {
   auto points = in_point_order(model, reference.x);
-  auto file = proto::FieldSeriesFile::resume(path, n_steps, n_steps, options_of(model, points, attributes));
-  return {model, std::move(points), std::move(file)};
+  auto file = proto::FieldSeriesFile::resume(path, n_steps, n_steps, options_of(model, points, attributes, has_ledger));
+  return {model, std::move(points), std::move(file), has_ledger};
 }
 
 void FieldsFile::put_stresses(const State& state) {
@@ -115,6 +119,7 @@ void FieldsFile::put_energies(const EnergyBalance& balance) {
   file_.put_history("strain_energy", balance.stored.strain);
   file_.put_history("contact_energy", balance.stored.contact);
   file_.put_history("gravity_energy", balance.stored.gravity);
+  if (!has_ledger_) return;
   file_.put_history("work_of_loads", balance.work);
   file_.put_history("viscous_dissipation", balance.viscous);
   file_.put_history("contact_dissipation", balance.contact_dashpots);

@@ -11,7 +11,7 @@ BedRecord::BedRecord(TrackBed& bed, EnergyWatch& energy, RecordSettings settings
   const auto& folder = settings_.folder;
   const auto& attributes = settings_.attributes;
   if (settings_.output_interval > 0) {
-    fields_.emplace(folder + "/qdem.h5", bed.model(), bed.state(), attributes);
+    fields_.emplace(folder + "/qdem.h5", bed.model(), bed.state(), attributes, bed.state().ledger.open);
     if (bed.settings().contact_output) contacts_.emplace(folder + "/contacts.h5", attributes);
   }
   const SensorsSettings& sensors = bed.settings().sensors;
@@ -25,7 +25,8 @@ BedRecord::BedRecord(TrackBed& bed, EnergyWatch& energy, RecordSettings settings
   const auto& attributes = settings_.attributes;
   exchange_counts(saved);
   if (settings_.output_interval > 0) {
-    fields_.emplace(FieldsFile::resume(folder + "/qdem.h5", bed.model(), start(), attributes, n_outputs_));
+    fields_.emplace(FieldsFile::resume(folder + "/qdem.h5", bed.model(), start(), attributes, n_outputs_,
+                                       bed.state().ledger.open));
     if (bed.settings().contact_output)
       contacts_.emplace(ContactsFile::resume(folder + "/contacts.h5", attributes, n_contact_rows_));
   }

@@ -38,6 +38,7 @@ void EnergyWatch::exchange(proto::StateArchive& archive) {
 }
 
 std::vector<proto::Fact> EnergyWatch::facts() const {
+  if (!last_.open) return {};
   return {{"qdem.energy.work_j", last_.work, {}},
           {"qdem.energy.viscous_j", last_.viscous, {}},
           {"qdem.energy.contact_dashpots_j", last_.contact_dashpots, {}},

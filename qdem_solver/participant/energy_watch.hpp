@@ -29,7 +29,8 @@ class EnergyWatch {
   double largest_residual() const { return largest_; }  ///< of all looks, relative [-]
   /// What a resumed run needs: the largest residual, and whether the warning was given.
   void exchange(proto::StateArchive& archive);
-  /// Names below "qdem.energy." for the summary: the last balance, and the largest residual.
+  /// Names below "qdem.energy." for the summary: the last balance, and the largest residual. None
+  /// with a closed ledger.
   std::vector<proto::Fact> facts() const;
 
  private:

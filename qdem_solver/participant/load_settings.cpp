@@ -149,8 +149,8 @@ std::vector<PatchLoad> make_patch_loads(const Model& model, const State& state,
                                         const std::vector<LoadSettings>& settings) {
   std::vector<PatchLoad> loads;
   for (const LoadSettings& of_case : settings) {
+    if (!acts_on_patch(of_case)) continue;
     const bool on_pads = of_case.target == LoadTarget::pads;
-    if (on_pads && of_case.load.kind != LoadKind::drop_weight) continue;
     loads.push_back(of_case.load);
     loads.back().patch =
         on_pads ? make_pad_patch(model)

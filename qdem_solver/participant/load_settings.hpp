@@ -21,6 +21,11 @@ struct LoadSettings {
   Eigen::Vector3d direction{0, 0, -1};  ///< of a patch
 };
 
+/// Whether it is one of Model::loads: loads on patches, and drop weights on the pads.
+inline bool acts_on_patch(const LoadSettings& of_case) {
+  return of_case.target == LoadTarget::patch || of_case.load.kind == LoadKind::drop_weight;
+}
+
 /// Reads the tables `[[qdem.run.load]]` of `run`:
 ///     on = "pads"         of all seats together, downward (default)
 ///     on = "patch"        body ("sleeper"), centre_m, radius_m or half_lengths_m, direction ([0, 0, -1])
@@ -36,7 +41,7 @@ struct LoadSettings {
 /// `gravity` [m/s2] turns a drop height into a speed. Throws proto::Error (config).
 std::vector<LoadSettings> read_loads(const proto::Section& run, double gravity);
 
-/// The loads that act on patches, drop weights on the pads among them, at `state`. Model::pads must be there.
+/// The loads that act on patches at `state`. Model::pads must be there.
 /// Throws proto::Error (bad_data) for a body or a patch that is not there.
 std::vector<PatchLoad> make_patch_loads(const Model& model, const State& state,
                                         const std::vector<LoadSettings>& settings);

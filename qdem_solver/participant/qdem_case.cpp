@@ -73,6 +73,14 @@ Interaction read_interaction(const Section& qdem) {
   return name == "bond" ? Interaction::bond : Interaction::quadruple;
 }
 
+EngineKind read_engine(const Section& qdem) {
+  const std::string name = qdem.choice_or("engine", "cpu", {"cpu", "cuda", "check"});
+  for (const EngineKind kind : {EngineKind::cuda, EngineKind::check}) {
+    if (name == engine_name(kind)) return kind;
+  }
+  return EngineKind::cpu;
+}
+
 void read_materials(const Section& qdem, BedPhysics& physics) {
   std::vector<std::string> names;
   for (const Section& section : qdem.sections("material")) {
@@ -171,6 +179,7 @@ QdemCase read_qdem_case(const proto::CaseFile& file) {
   QdemCase result;
   result.step_safety = section.number_or("step_safety", result.step_safety, {0.0, 1.0, true});
   result.largest_step = section.number_or("largest_step_s", 0.0, Range::not_negative());
+  result.engine = read_engine(section);
   result.threads = static_cast<int>(section.integer_or("threads", 0, Range::between(0, 1024)));
   result.physics.gravity = {0, 0, -section.number_or("gravity_m_per_s2", 9.81, Range::not_negative())};
   result.initialise_damping =

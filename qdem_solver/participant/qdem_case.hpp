@@ -5,6 +5,7 @@
 
 #include "proto/case/case_file.hpp"
 #include "qdem_solver/bed/bed.hpp"
+#include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/participant/load_settings.hpp"
 #include "qdem_solver/sensors/sensor_settings.hpp"
 
@@ -19,8 +20,9 @@ struct RunAlone {
 
 struct QdemCase {
   BedPhysics physics;
-  double step_safety = 0.8;             ///< share of the computed stability bound
-  double largest_step = 0.0;            ///< the user's own limit [s]; 0: none
+  double step_safety = 0.8;   ///< share of the computed stability bound
+  double largest_step = 0.0;  ///< the user's own limit [s]; 0: none
+  EngineKind engine = EngineKind::cpu;
   int threads = 0;                      ///< 0: as many as the environment gives
   double initial_overlap_limit = 0.01;  ///< of two bodies at the start, over the edge of their elements [-]
   double initialise_damping = 0.5;      ///< Cundall's damping in the initialise phase [-]
@@ -31,8 +33,8 @@ struct QdemCase {
 };
 
 /// Reads
-///   [qdem] particle_interaction ("quadruple", "bond"), step_safety, largest_step_s, threads, gravity_m_per_s2,
-///     initialise_damping, steps_per_viscous_sample, sensor_interval_s, contact_output
+///   [qdem] particle_interaction ("quadruple", "bond"), engine ("cpu", "cuda", "check"), step_safety, largest_step_s,
+///     threads, gravity_m_per_s2, initialise_damping, steps_per_viscous_sample, sensor_interval_s, contact_output
 ///   [[qdem.sensor]] (sensors/sensor_settings.hpp)
 ///   [[qdem.material]] name ("stone", "sleeper"; others where [bed] stone_materials or [qdem.subgrade] names them; each
 ///   once), young_pa, poisson, density_kg_per_m3, and one of

@@ -24,6 +24,20 @@ Bed bed_of(const proto::CaseFile& file, const QdemCase& settings, const BedSourc
   return source(file, settings.physics);
 }
 
+/// What a case says about its model before there is a bed.
+Model without_bodies(const QdemCase& settings) {
+  Model model;
+  model.contact = settings.physics.contact;
+  model.lining = settings.physics.lining;
+  Plane ground;
+  ground.bearing = settings.physics.ground;
+  model.planes.push_back(ground);
+  for (const LoadSettings& load : settings.run.loads) {
+    if (acts_on_patch(load)) model.loads.push_back(load.load);
+  }
+  return model;
+}
+
 }  // namespace
 
 TrackBed::TrackBed(const proto::CaseFile& file, const BedSource& source, std::function<void()> on_step, BedRole role)
@@ -36,8 +50,8 @@ TrackBed::TrackBed(const proto::CaseFile& file, const BedSource& source, std::fu
                           "[qdem.contact] initial_overlap_limit");
   bed_.model.pads = make_pad_cells(bed_.model, bed_.state, bed_.model.pad_body, seats_);
   if (role == BedRole::alone) bed_.model.loads = make_patch_loads(bed_.model, bed_.state, settings_.run.loads);
-  engine_ = std::make_unique<Engine>(
-      bed_.model, EngineOptions{settings_.threads, std::move(on_step), settings_.steps_per_viscous_sample});
+  engine_ = std::make_unique<Engine>(bed_.model, EngineOptions{settings_.threads, std::move(on_step),
+                                                               settings_.steps_per_viscous_sample, settings_.engine});
   engine_->set_pad_reference(rest_.x);
   engine_->prepare(bed_.state);
   relaxation_.emplace(bed_.model, resting_points, settings_.step_safety);
@@ -113,6 +127,7 @@ std::vector<proto::Fact> TrackBed::facts() const {
   add("qdem.largest_step_s", largest_step_);
   add("qdem.damping_step_factor", bound_->viscosity_factor(bed_.state, engine_->contacts(), touching_gap()));
   add("qdem.seat_mass_kg", bed_.model.body_mass(bed_.model.pad_body) / static_cast<double>(seats_.size()));
+  facts.push_back({"qdem.engine", std::nullopt, engine_name(settings_.engine)});
   add("qdem.threads", settings_.threads > 0 ? settings_.threads : omp_get_max_threads());
   add_layers(facts);
   return facts;
@@ -146,7 +161,17 @@ proto::Attributes TrackBed::attributes(const proto::CaseFile& file) const {
 }
 
 void check_case(const proto::CaseFile& file) {
-  read_qdem_case(file);
+  const QdemCase settings = read_qdem_case(file);
+  const std::string unknown = unknown_to_engine(settings.engine, without_bodies(settings));
+  if (!unknown.empty()) {
+    file.section("qdem").fail("engine", "the device engine does not know " + unknown,
+                              "give \"cpu\", or leave that out of the case");
+  }
+  const std::string missing = why_no_engine(settings.engine);
+  if (!missing.empty()) {
+    file.section("qdem").fail("engine", "the CUDA engine cannot be used: " + missing,
+                              "give \"cpu\", or build with the preset cuda and run where a CUDA device is");
+  }
   proto::read_rail_seats(file);
 }
 

@@ -85,7 +85,7 @@ class TrackBed {
   double step_bound_ = 0.0, largest_step_ = 0.0;
 };
 
-/// Checks `[qdem]` and `[[rail_seat]]`. Throws proto::Error (config).
+/// Checks `[qdem]` and `[[rail_seat]]`, and that the engine asked for is there. Throws proto::Error (config).
 void check_case(const proto::CaseFile& file);
 
 }  // namespace qdem

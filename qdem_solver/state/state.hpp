@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "proto/span.hpp"
 #include "qdem_solver/model/model.hpp"
 #include "qdem_solver/state/energy_ledger.hpp"
 
@@ -14,12 +16,12 @@ namespace qdem {
 struct ContactKey {
   int body_a = 0, body_b = 0;         ///< a < b for edge and sphere pairs; a owns the vertex for vertex-surface pairs; b < 0: plane ~b
   int feature_a = 0, feature_b = 0;   ///< node or edge of a; edge of b, with spheres its node, -1 for vertex-surface
-  bool is_plane() const { return body_b < 0; }
-  bool is_edge_pair() const { return feature_b >= 0; }
-  friend bool operator==(const ContactKey& p, const ContactKey& q) {
+  HOUSE_HOST_DEVICE bool is_plane() const { return body_b < 0; }
+  HOUSE_HOST_DEVICE bool is_edge_pair() const { return feature_b >= 0; }
+  HOUSE_HOST_DEVICE friend bool operator==(const ContactKey& p, const ContactKey& q) {
     return p.body_a == q.body_a && p.body_b == q.body_b && p.feature_a == q.feature_a && p.feature_b == q.feature_b;
   }
-  friend bool operator<(const ContactKey& p, const ContactKey& q) {
+  HOUSE_HOST_DEVICE friend bool operator<(const ContactKey& p, const ContactKey& q) {
     if (p.body_a != q.body_a) return p.body_a < q.body_a;
     if (p.body_b != q.body_b) return p.body_b < q.body_b;
     if (p.feature_a != q.feature_a) return p.feature_a < q.feature_a;
@@ -50,6 +52,12 @@ struct LoadState {
   double position = 0.0, velocity = 0.0, acceleration = 0.0;
 };
 
+/// Where an engine on a device holds the motion and contact history of a State in the device's memory. Only that engine
+/// looks inside.
+struct Residence {
+  virtual ~Residence() = default;
+};
+
 /// Kinematic state at one time level. Arrays are laid out as model.hpp says.
 struct State {
   std::int64_t step = 0;              ///< steps taken; time is counted by whoever sets the step length
@@ -59,6 +67,9 @@ struct State {
   std::vector<double> pad_force;      ///< on the sleeper per cell and seat axis, part of `a` [N]
   std::vector<LoadState> loads;       ///< of Model::loads; the engine sets them up
   EnergyLedger ledger;
+  /// Holds the same values on a device, if the state was last stepped there. Copies of a State share it until one of them
+  /// is stepped on, so that a copy is a snapshot on the device too.
+  std::shared_ptr<Residence> resident;
 
   Eigen::Vector3d position(const Model& model, int body, int node) const { return gather(model, x, body, node); }
   Eigen::Vector3d velocity(const Model& model, int body, int node) const { return gather(model, v, body, node); }

@@ -19,7 +19,7 @@ folders=()
 for folder in proto qdem_solver fem_solver coupler tests; do
   [[ -d $folder ]] && folders+=("$folder")
 done
-all=$({ grep -rnE --include='*.hpp' --include='*.cpp' --include='*.h' --include='*.cu' --include='*.in' \
+all=$({ grep -rnE --include='*.hpp' --include='*.cpp' --include='*.h' --include='*.cu' --include='*.cuh' --include='*.in' \
   '^[[:space:]]*#[[:space:]]*include' "${folders[@]}" || true; } |
   sed -E 's/^([^:]*:[0-9]+:)[[:space:]]*#[[:space:]]*include[[:space:]]*["<]([^">]*)[">].*/\1\2/')
 
@@ -52,6 +52,7 @@ door 'gmsh|libqhull|qhull' 'qdem_solver/bed' 'the mesher (Gmsh, Qhull)'
 door 'CGAL/' 'qdem_solver/bed' 'CGAL'
 door 'uv\.h' 'coupler/launch' 'libuv'
 door 'cholmod|suitesparse/' 'fem_solver/linear' 'CHOLMOD'
+door 'thrust/|cub/|cuda' 'qdem_solver/engine/device' 'the device (CUDA, Thrust)'
 door 'CLI/' '[a-z_]+/app|proto/example' 'CLI11'
 
 if ((n_violations > 0)); then

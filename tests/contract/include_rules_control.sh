@@ -49,8 +49,11 @@ plant qdem_solver/model/a.cpp '#include <gmsh.h>' 'the mesher'
 plant coupler/app/a.cpp '#include <uv.h>' 'libuv'
 plant fem_solver/time/a.cpp '#include <suitesparse/cholmod.h>' 'CHOLMOD'
 plant coupler/record/a.cpp '#include <CLI/CLI.hpp>' 'CLI11'
+plant qdem_solver/model/a.cuh '#include <cuda_runtime.h>' 'the device'
+plant qdem_solver/contact/a.cpp '#include <thrust/sort.h>' 'the device'
 
 allow coupler/app/main.cpp '#include "coupler/app/check_case.hpp"'
 allow qdem_solver/output/a.cpp '#include <hdf5.h>'
+allow qdem_solver/engine/device/a.cu '#include <thrust/sort.h>'
 allow tests/unit/a.cpp '#include "qdem_solver/model/model.hpp"'
 echo "every planted violation is caught"

@@ -6,8 +6,8 @@ cd "$1"
 readonly largest_file=450
 
 mapfile -d '' files < <(find . \( -path ./build -o -path ./runs -o -path ./.git -o -path ./.cache \) -prune -o \
-  -type f \( -name '*.hpp' -o -name '*.cpp' -o -name '*.cmake' -o -name '*.txt' -o -name '*.toml' -o -name '*.md' \
-  -o -name '*.fbs' -o -name '*.sh' -o -name '*.json' -o -name '*.js' -o -name '*.mjs' -o -name '*.css' \
+  -type f \( -name '*.hpp' -o -name '*.cu' -o -name '*.cuh' -o -name '*.cpp' -o -name '*.cmake' -o -name '*.txt' -o -name '*.toml' \
+  -o -name '*.md' -o -name '*.fbs' -o -name '*.sh' -o -name '*.json' -o -name '*.js' -o -name '*.mjs' -o -name '*.css' \
   -o -name '*.html' -o -name run \) -print0 | sort -z)
 
 n_violations=0

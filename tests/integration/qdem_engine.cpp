@@ -9,6 +9,7 @@
 #include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/model/pad_cells.hpp"
 #include "tests/support/box_mesh.hpp"
+#include "tests/support/falling_heap.hpp"
 #include "tests/support/tolerance.hpp"
 
 using Eigen::Vector3d;
@@ -17,76 +18,10 @@ using tests::near_rel;
 
 namespace {
 
-/// Twenty cubes of two sizes dropped in a heap on a rough ground plane, and a larger box of one lane among them.
-qdem::Model heap(qdem::Interaction interaction = qdem::Interaction::quadruple) {
-  auto model = tests::free_bodies(tests::box_template({2, 2, 2}, {0.04, 0.04, 0.04}), tests::rock(), 20);
-  model.materials[0].young = 1e8;
-  model.materials[0] = tests::with_retardation(model.materials[0], 1e-6);
-  model.materials[0].interaction = interaction;
-  model.templates.push_back(tests::box_template({12, 4, 3}, {0.3, 0.1, 0.08}));
-  qdem::Body slab;
-  slab.kind = qdem::BodyKind::sleeper, slab.name = "slab", slab.template_id = 1;
-  model.bodies.push_back(slab);
-  for (int i = 0; i < 20; ++i)
-    model.bodies[i].scale = 1.0 + 0.2 * (i % 3), model.bodies[i].kind = qdem::BodyKind::stone;
-  model.gravity = {0.5, 0, -9.81};
-  model.contact = {1e5, 0.8, 0.2, 0.5, 1e-3};
-  model.planes.push_back({"ground", {0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 0.5});
-  qdem::make_batches(model);
-  return model;
-}
-
-/// The same with contact spheres that roll with resistance.
-qdem::Model heap_of_spheres() {
-  auto model = heap();
-  model.contact.shape = qdem::ContactShape::sphere, model.contact.radii = qdem::SphereRadii::by_edge;
-  model.contact.rounding = 12e-3, model.contact.rolling_friction = 0.1;
-  model.contact.damping_ratio = 0.7, model.gravity *= 10;  // they stay together
-  return model;
-}
-
-qdem::State heap_state(const qdem::Model& model) {
-  std::vector<qdem::Placement> places(21);
-  for (int i = 0; i < 20; ++i) {
-    places[i].rotation = Eigen::AngleAxisd(0.3 * i, Vector3d(1, 0.1 * i, -0.5).normalized()).toRotationMatrix();
-    const Vector3d centre(0.1 * (i % 5), 0.1 * (i / 10), 0.052 + 0.1 * ((i / 5) % 2));
-    places[i].translation = centre - places[i].rotation * Vector3d::Constant(0.02 * model.bodies[i].scale);
-  }
-  places[20].translation = Vector3d(0.05, 0, 0.21);
-  qdem::State state = qdem::make_state(model, places);
-  for (double& v : state.v) v = 0;
-  for (int body = 0; body < 21; ++body) {
-    for (int node = 0; node < model.shape(body).n_nodes(); ++node) {
-      qdem::State::scatter(model, state.v, body, node, {0, 0, -2.0});
-    }
-  }
-  return state;
-}
-
-bool same_bytes(const std::vector<double>& p, const std::vector<double>& q) {
-  return p.size() == q.size() && std::memcmp(p.data(), q.data(), p.size() * sizeof(double)) == 0;
-}
-
-void expect_same_bytes(const qdem::State& p, const qdem::State& q) {
-  EXPECT_TRUE(same_bytes(p.x, q.x));
-  EXPECT_TRUE(same_bytes(p.v, q.v));
-  EXPECT_TRUE(same_bytes(p.a, q.a));
-  EXPECT_TRUE(p.contact.keys == q.contact.keys);
-  EXPECT_TRUE(p.contact.slip == q.contact.slip);
-  EXPECT_TRUE(p.contact.roll == q.contact.roll);
-  EXPECT_EQ(p.ledger.contact_dashpots, q.ledger.contact_dashpots);
-  EXPECT_EQ(p.ledger.friction, q.ledger.friction);
-  EXPECT_EQ(p.ledger.viscous, q.ledger.viscous);
-}
-
-constexpr double step = 2e-5;
-
-}  // namespace
-
-namespace {
+constexpr double step = tests::heap_step;
 
 void expect_threads_change_no_bit(const qdem::Model& model) {
-  qdem::State one = heap_state(model), two = one, three = one;
+  qdem::State one = tests::heap_state(model), two = one, three = one;
   qdem::Engine engine_one(model, {1}), engine_two(model, {2}), engine_three(model, {3});
   const auto run = [](qdem::Engine& engine, qdem::State& state) {
     engine.prepare(state);
@@ -96,28 +31,28 @@ void expect_threads_change_no_bit(const qdem::Model& model) {
   run(engine_one, one), run(engine_two, two), run(engine_three, three);
   EXPECT_GT(engine_one.contacts().report(one).live, 4);
   EXPECT_GT(one.ledger.friction, 0);
-  expect_same_bytes(one, two);
-  expect_same_bytes(one, three);
+  tests::expect_same_bytes(one, two);
+  tests::expect_same_bytes(one, three);
 }
 
 }  // namespace
 
 TEST(Engine, ThreadsDoNotChangeABit) {
-  expect_threads_change_no_bit(heap());
+  expect_threads_change_no_bit(tests::heap());
 }
 
 TEST(Engine, ThreadsDoNotChangeABitOfBonds) {
-  expect_threads_change_no_bit(heap(qdem::Interaction::bond));
+  expect_threads_change_no_bit(tests::heap(qdem::Interaction::bond));
 }
 
 TEST(Engine, ThreadsDoNotChangeABitOfSpheres) {
-  expect_threads_change_no_bit(heap_of_spheres());
+  expect_threads_change_no_bit(tests::heap_of_spheres());
 }
 
 namespace {
 
 void expect_a_restored_snapshot_continues(const qdem::Model& model) {
-  qdem::State state = heap_state(model);
+  qdem::State state = tests::heap_state(model);
   qdem::Engine engine(model, {2});
   engine.prepare(state);
   engine.open_ledger(state);
@@ -126,22 +61,22 @@ void expect_a_restored_snapshot_continues(const qdem::Model& model) {
   engine.advance(state, step, 1000);
   qdem::State again = snapshot;
   engine.advance(again, step, 1000);  // by the engine that has been further already
-  expect_same_bytes(state, again);
+  tests::expect_same_bytes(state, again);
   qdem::State fresh = snapshot;
   qdem::Engine other(model, {1});  // by an engine that never saw the first half
   other.advance(fresh, step, 1000);
-  expect_same_bytes(state, fresh);
+  tests::expect_same_bytes(state, fresh);
   EXPECT_GT(engine.contacts().report(state).live, 4);
 }
 
 }  // namespace
 
 TEST(Engine, RestoredSnapshotContinuesWithTheSameBytes) {
-  expect_a_restored_snapshot_continues(heap());
+  expect_a_restored_snapshot_continues(tests::heap());
 }
 
 TEST(Engine, RestoredSnapshotOfSpheresContinuesWithTheSameBytes) {
-  expect_a_restored_snapshot_continues(heap_of_spheres());
+  expect_a_restored_snapshot_continues(tests::heap_of_spheres());
 }
 
 namespace {

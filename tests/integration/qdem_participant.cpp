@@ -122,8 +122,10 @@ TEST(QdemParticipant, RelaxesToTheForceOfTheSpring) {
   EXPECT_TRUE(near_rel(driver.seat_force(), before, 1e-3));
 }
 
-TEST(QdemParticipant, RollbackRepeatsTheWindowBitwise) {
-  Driver driver;
+namespace {
+
+void expect_rollback_repeats(const std::string& qdem_keys) {
+  Driver driver(qdem_keys);
   driver.relax(20);
   driver.participant_.start();
   for (int n = 0; n < 3; ++n) driver.march(n), driver.commit(n);
@@ -133,6 +135,68 @@ TEST(QdemParticipant, RollbackRepeatsTheWindowBitwise) {
   const auto second = driver.march(3);
   EXPECT_EQ(first_step, driver.participant_.largest_step());
   for (const auto& values : first.all()) EXPECT_EQ(values.values, second.get(values.name)) << values.name;
+}
+
+}  // namespace
+
+TEST(QdemParticipant, RollbackRepeatsTheWindowBitwise) {
+  expect_rollback_repeats("threads = 1\n");
+}
+
+TEST(QdemParticipant, RollbackRepeatsTheWindowBitwiseOnADevice) {
+  expect_rollback_repeats("threads = 1\nengine = \"check\"\n");
+}
+
+TEST(QdemParticipant, RestoreRepeatsTheWindowBitwiseOnADevice) {
+  Driver driver("threads = 1\nengine = \"check\"\n");
+  driver.relax(20);
+  driver.participant_.start();
+  for (int n = 0; n < 3; ++n) driver.march(n), driver.commit(n);
+  const std::string path = folder() + "/saved.h5";
+  const auto hash = driver.participant_.save({3, path});
+  const auto first = driver.march(3);
+  driver.participant_.restore({3, path, hash});
+  const auto second = driver.march(3);
+  for (const auto& values : first.all()) EXPECT_EQ(values.values, second.get(values.name)) << values.name;
+}
+
+TEST(QdemParticipant, TheDeviceEngineMarchesAsTheCpuEngine) {
+  Driver cpu("threads = 1\n"), device("threads = 1\nengine = \"check\"\n");
+  for (Driver* driver : {&cpu, &device}) {
+    driver->relax(20);
+    driver->participant_.start();
+    for (int n = 0; n < 10; ++n) driver->march(n), driver->commit(n);
+  }
+  for (const char* name : {field::impulse, field::pad_work, field::sleeper_displacement, field::sleeper_velocity}) {
+    const auto &wanted = cpu.last_.get(name), &reached = device.last_.get(name);
+    double largest = 0.0;
+    for (const double value : wanted) largest = std::max(largest, std::abs(value));
+    ASSERT_EQ(reached.size(), wanted.size());
+    // Cundall's damping is a sign: while relaxing, round-off decides it for whatever hardly moves.
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      EXPECT_TRUE(near_abs(reached[i], wanted[i], 1e-4 * largest)) << name << " " << i;
+    }
+  }
+}
+
+TEST(QdemParticipant, ADeviceKeepsNoEnergyLedger) {
+  const auto facts_of = [](const std::string& engine) {
+    Driver driver("threads = 1\nengine = \"" + engine + "\"\n", "output_interval_s = 1e-4\n");
+    driver.relax(2);
+    driver.participant_.start();
+    for (int n = 0; n < 2; ++n) driver.march(n), driver.commit(n);
+    const auto facts = driver.participant_.finish();
+    return std::count_if(facts.begin(), facts.end(),
+                         [](const auto& fact) { return fact.key.find("qdem.energy.") == 0; });
+  };
+  const auto written = [](const std::string& name) {
+    return proto::ResultReader(folder() + "/qdem.h5").read("/TimeSeries/" + name).values.size();
+  };
+  EXPECT_EQ(facts_of("check"), 0);
+  EXPECT_EQ(written("kinetic_energy"), 3u);
+  EXPECT_THROW(written("work_of_loads"), proto::Error);
+  EXPECT_EQ(facts_of("cpu"), 7);
+  EXPECT_EQ(written("work_of_loads"), 3u);
 }
 
 TEST(QdemParticipant, ACheckpointHoldsTheEnergyLedger) {

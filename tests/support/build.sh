@@ -8,7 +8,7 @@ house_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 house_packages=(
   g++ cmake ninja-build pkg-config git
   libdeal.ii-dev libeigen3-dev libsuitesparse-dev libgmsh-dev libcgal-dev
-  libzmq3-dev cppzmq-dev libflatbuffers-dev flatbuffers-compiler
+  libthrust-dev libzmq3-dev cppzmq-dev libflatbuffers-dev flatbuffers-compiler
   libhdf5-dev libhdf5-openmpi-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libuv1-dev nlohmann-json3-dev
   libgtest-dev gnuplot-nox python3-zmq python3-flatbuffers python3-xxhash

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "proto/error.hpp"
+#include "qdem_solver/participant/track_bed.hpp"
 #include "tests/support/small_bed.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -183,6 +184,59 @@ TEST(QdemCase, ReadsHowParticlesInteract) {
   EXPECT_EQ(physics.sleeper.interaction, Interaction::bond);
 }
 
+TEST(QdemCase, ReadsWhoMakesTheSteps) {
+  using qdem::EngineKind;
+  EXPECT_EQ(read("").engine, EngineKind::cpu);
+  EXPECT_EQ(read("engine = \"cuda\"\n").engine, EngineKind::cuda);
+  EXPECT_EQ(read("engine = \"check\"\n").engine, EngineKind::check);
+}
+
+TEST(QdemCase, AnEngineThatIsNotThereIsRefused) {
+  const std::string missing = qdem::why_no_engine(qdem::EngineKind::cuda);
+  if (missing.empty()) GTEST_SKIP() << "there is a CUDA device";
+  const auto path = tests::small_bed_case(testing::TempDir(), "engine = \"cuda\"\n");
+  try {
+    qdem::check_case(proto::CaseFile::load(path));
+    FAIL() << "accepted";
+  } catch (const proto::Error& error) {
+    EXPECT_EQ(error.code(), proto::ExitCode::config);
+    for (const auto& part : {missing, std::string("qdem.engine"), std::string(".toml:20:10")}) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(QdemCase, ADeviceEngineIsRefusedWhatItDoesNotKnow) {
+  const auto refusal = [](const std::string& tables, const std::string& law = "") -> std::string {
+    const auto path = tests::small_bed_case(testing::TempDir(), "engine = \"check\"\n" + tables);
+    std::string text = proto::CaseFile::load(path).text();
+    const std::string contact = "[qdem.contact]\n";
+    text.insert(text.find(contact) + contact.size(), law);
+    std::ofstream(path) << text;
+    try {
+      qdem::check_case(proto::CaseFile::load(path));
+      return "accepted";
+    } catch (const proto::Error& error) {
+      EXPECT_EQ(error.code(), proto::ExitCode::config);
+      EXPECT_NE(std::string(error.what()).find("qdem.engine"), std::string::npos) << error.what();
+      return error.what();
+    }
+  };
+  const auto expect = [](const std::string& said, const std::string& words) {
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  };
+  const std::string layer =
+      "bedding_modulus_n_per_m3 = 2e8\nfootprint_m2 = 1e-3\nloss_factor = 0.2\n"
+      "loss_factor_frequency_hz = 40.0\n";
+  EXPECT_EQ(refusal(""), "accepted");
+  expect(refusal("", "law = \"sphere\"\n"), "contact spheres");
+  expect(refusal("[qdem.under_sleeper_pad]\n" + layer), "a pad under the sleeper");
+  expect(refusal("[qdem.under_ballast_mat]\n" + layer), "ground that gives way");
+  const std::string weight = "[[qdem.run.load]]\nkind = \"drop_weight\"\nmass_kg = 10.0\ndrop_height_m = 0.002\n";
+  expect(refusal(weight + "stiffness_n_per_m = 1e6\n"), "loads on patches");
+  EXPECT_EQ(refusal("[[qdem.run.load]]\nkind = \"table\"\ntime_s = [0.0, 1.0]\nforce_n = [0.0, 1.0]\n"), "accepted");
+}
+
 TEST(QdemCase, ALossFactorIsARetardationTime) {
   const auto file = [&](const std::string& damping) {
     std::string text = proto::CaseFile::load(tests::small_bed_case(testing::TempDir())).text();
@@ -254,6 +308,7 @@ TEST(QdemCase, RefusesLayersThatCannotBe) {
 
 TEST(QdemCase, RefusesWhatItCannotUse) {
   expect_refused("particle_interaction = \"bonds\"\n", "did you mean 'bond'");
+  expect_refused("engine = \"gpu\"\n", "cuda");
   expect_refused("particle_interactoin = \"bond\"\n", "particle_interaction");
   expect_refused("step_safty = 0.7\n", "step_safety");
   expect_refused("step_safety = 1.2\n", "qdem.step_safety");

@@ -4,24 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include "proto/error.hpp"
 #include "qdem_solver/engine/cpu/engine_data.hpp"
+#include "qdem_solver/engine/relaxation.hpp"
 
 namespace qdem {
 
 using cpu::Task;
 using cpu::TaskKind;
 using proto::Span;
-
-namespace {
-
-/// While relaxing, deformation loses this share of its velocity, times the local damping, in a step: strong for what
-/// the step resolves well, and a twentieth of the step's budget at most.
-constexpr double drag_of_a_step = 0.05;
-
-}  // namespace
 
 Engine::Data::Data(const Model& the_model, EngineOptions the_options)
     : model(the_model),
@@ -37,7 +28,8 @@ Engine::Data::Data(const Model& the_model, EngineOptions the_options)
       records(n_threads, cpu::AlignedValues(8 * tasks.largest_block)),
       contact(model),
       pads(model),
-      loads(model) {}
+      loads(model),
+      device(make_stepper(model, options)) {}
 
 Engine::Engine(const Model& model, EngineOptions options) : data_(std::make_unique<Data>(model, std::move(options))) {}
 Engine::~Engine() = default;
@@ -48,6 +40,7 @@ const ContactStage& Engine::contacts() const {
 
 void Engine::set_pad_reference(std::vector<double> reference) {
   data_->pad_reference = std::move(reference);
+  if (data_->device) data_->device->set_pad_reference(data_->pad_values(data_->pad_reference));
 }
 
 void Engine::Data::drift(State& state, double dt) {
@@ -65,7 +58,7 @@ void Engine::Data::drift(State& state, double dt) {
       if (batch.bodies[lane] >= 0) moves[batch.bodies[lane]] = std::sqrt(3.0) * moved.largest_move[lane];
     }
   }
-  if (!finite) report_blow_up(state);
+  if (!finite) report_blow_up(model, state);
 }
 
 void Engine::Data::kick(State& state, const Batch& batch, int first, int last, double dt) {
@@ -97,7 +90,7 @@ void Engine::Data::scale_inertia(const State& state, const Batch& batch, double 
   }
   kernels.scale_inertia({{model.gravity[0], model.gravity[1], model.gravity[2]},
                          model.local_damping,
-                         dt > 0 ? drag_of_a_step * model.local_damping / dt : 0.0,
+                         relaxation_drag(model.local_damping, dt),
                          batch.lanes,
                          shape.n_nodes(),
                          shape.node_volumes.data(),
@@ -204,23 +197,6 @@ void Engine::Data::end_step(State& state, double dt, Span<const double> pad_forc
   }
 }
 
-void Engine::Data::report_blow_up(const State& state) const {
-  for (std::size_t body = 0; body < model.bodies.size(); ++body) {
-    for (int node = 0; node < model.shape(static_cast<int>(body)).n_nodes(); ++node) {
-      const auto b = static_cast<int>(body);
-      if (state.position(model, b, node).allFinite() && state.velocity(model, b, node).allFinite()) continue;
-      std::ostringstream problem, where;
-      problem << "the motion is no longer finite";
-      where << "step " << state.step << ", t = " << state.time << " s, body " << body << " '" << model.bodies[body].name
-            << "', node " << node;
-      throw proto::Error(proto::ExitCode::numerics, problem.str(), where.str(),
-                         "lower [qdem] step_safety, or look for overlapping bodies at the start");
-    }
-  }
-  throw proto::Error(proto::ExitCode::numerics, "the motion overflows", "step " + std::to_string(state.step),
-                     "lower [qdem] step_safety");
-}
-
 std::vector<double> Engine::Data::pad_values(const std::vector<double>& field) const {
   std::vector<double> values(pads.n_values());
   pads.apply(field, values);
@@ -254,7 +230,20 @@ void Engine::Data::add_pad_change(State& state, Span<const double> new_force) {
   state.pad_force.assign(new_force.begin(), new_force.end());
 }
 
+PadSums Engine::Data::advance_on_device(State& state, double dt, std::int64_t n_steps, const PadDrive* drive) {
+  state.ledger = {};
+  PadSums sums = device->advance(state, dt, n_steps, drive);
+  device->show_contacts(state, contact);
+  for (std::int64_t j = 0; options.on_step && j < n_steps; ++j) options.on_step();
+  return sums;
+}
+
 void Engine::prepare(State& state) {
+  if (data_->device) {
+    data_->device->prepare(state);
+    return data_->device->show_contacts(state, data_->contact);
+  }
+  state.resident.reset();
   omp_set_num_threads(data_->n_threads);
   data_->contact.update_candidates(state);
   state.ledger.contact_power = data_->contact.compute(state, 0.0);
@@ -265,6 +254,11 @@ void Engine::prepare(State& state) {
 
 void Engine::advance(State& state, double dt, std::int64_t n_steps) {
   Data& d = *data_;
+  if (d.device) {
+    d.advance_on_device(state, dt, n_steps, nullptr);
+    return;
+  }
+  state.resident.reset();
   omp_set_num_threads(d.n_threads);  // the contact stage takes the program's number
   const std::vector<double> unloaded(d.pads.n_values(), 0.0);
   d.add_pad_change(state, unloaded);
@@ -280,6 +274,8 @@ void Engine::advance(State& state, double dt, std::int64_t n_steps) {
 
 PadSums Engine::advance(State& state, double dt, std::int64_t n_steps, const PadDrive& drive) {
   Data& d = *data_;
+  if (d.device) return d.advance_on_device(state, dt, n_steps, &drive);
+  state.resident.reset();
   omp_set_num_threads(d.n_threads);  // the contact stage takes the program's number
   const std::size_t n = d.pads.n_values();
   PadSums sums{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};

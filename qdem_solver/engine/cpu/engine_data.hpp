@@ -8,6 +8,7 @@
 #include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/engine/pads.hpp"
 #include "qdem_solver/engine/patch_loads.hpp"
+#include "qdem_solver/engine/stepper.hpp"
 
 namespace qdem {
 
@@ -41,7 +42,7 @@ struct Engine::Data {
   double viscous_power(const State& state, const cpu::Task& task);
   static void book_contacts(EnergyLedger& ledger, const ContactPower& power, double dt);
   static void book_work(EnergyLedger& ledger, double work);
-  [[noreturn]] void report_blow_up(const State& state) const;
+  PadSums advance_on_device(State& state, double dt, std::int64_t n_steps, const PadDrive* drive);
 
   const Model& model;
   EngineOptions options;
@@ -58,6 +59,7 @@ struct Engine::Data {
   PadOperator pads;
   PatchLoads loads;
   std::vector<double> pad_reference;
+  std::unique_ptr<Stepper> device;  ///< makes the steps in place of all the above; nullptr: the CPU does
 };
 
 }  // namespace qdem

@@ -96,6 +96,7 @@ StoredEnergy Engine::stored(const State& state) const {
 void Engine::open_ledger(State& state) const {
   const ContactPower contact_power = state.ledger.contact_power;
   state.ledger = {};
+  if (data_->device) return;
   state.ledger.open = true;
   state.ledger.start = stored(state);
   state.ledger.first_step = state.step;
@@ -109,6 +110,7 @@ EnergyBalance Engine::balance(const State& state) const {
   EnergyBalance balance;
   balance.stored = stored(state);
   if (!ledger.open) return balance;
+  balance.open = true;
   balance.change = difference(balance.stored, ledger.start);
   balance.work = ledger.work;
   balance.viscous = ledger.viscous;
