@@ -45,7 +45,9 @@ std::vector<Conforming> participants() {
       {"control_explicit", "qdem", oscillator, {broken, "--side", "explicit", "--fault", "none"}, 1},
       {"control_implicit", "fem", oscillator, {broken, "--side", "implicit", "--fault", "none"}, 1},
       {"qdem_solver", "qdem", tests::solver_case(), {"qdem_solver", "participant"}, 0},
-      {"fem_solver", "fem", tests::solver_case(), {"fem_solver", "participant"}, 0}};
+      {"fem_solver", "fem", tests::solver_case(), {"fem_solver", "participant"}, 0},
+      {"fem_beam", "fem", tests::solver_case({{"n_bays", "10"}}), {"fem_beam", "participant"}, 0},
+      {"python", "fem", oscillator, {HOUSE_BIN_DIR "/../test_bin/spring_rail/spring_rail.py", "participant"}, 2}};
 }
 
 class Conformance : public ::testing::TestWithParam<Conforming> {};
