@@ -73,7 +73,9 @@ TEST_F(CouplerOverhead, OfTwoExchangesIsBelowThreeTenthsOfAMillisecond) {
     std::printf("two exchanges of %.1f KiB, request and answer: least %.3f ms, median %.3f ms\n", kib, 1e3 * least,
                 1e3 * median);
     // Of a machine that others use too the least counts.
-    if (kib <= 64.0) EXPECT_LT(least, 0.3e-3);
+    if (kib <= 64.0) {
+      EXPECT_LT(least, 0.3e-3);
+    }
   }
 }
 
