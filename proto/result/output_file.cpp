@@ -1,5 +1,6 @@
 #include "proto/result/output_file.hpp"
 
+#include <endian.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -137,7 +138,25 @@ void OutputFile::set_counter(hid_t counter, std::int64_t value) {
 }
 
 void OutputFile::flush() {
+  announce_end();
   check(H5Fflush(file_.id(), H5F_SCOPE_LOCAL), "write");
+}
+
+// HDF5 writes its superblock, and in it the end of the file, after the index nodes that may lie behind the old end: a kill
+// between them would leave committed rows that cannot be reached. The format of the oldest superblock is fixed.
+void OutputFile::announce_end() {
+  constexpr off_t version_at = 8, end_at = 40;
+  haddr_t end = 0;
+  check(H5Fget_eoa(file_.id(), &end), "write");
+  const int file = descriptor();
+  struct stat status {};
+  std::uint8_t version = 1;
+  if (::pread(file, &version, 1, version_at) != 1 || version != 0) return;  // nothing was flushed yet
+  const bool grown = ::fstat(file, &status) == 0 &&
+                     (static_cast<haddr_t>(status.st_size) >= end || ::ftruncate(file, static_cast<off_t>(end)) == 0);
+  const std::uint64_t little_endian = htole64(end);
+  if (!grown || ::pwrite(file, &little_endian, sizeof little_endian, end_at) != sizeof little_endian)
+    fail("write", std::strerror(errno));
 }
 
 void OutputFile::rename_to(const std::string& path) {

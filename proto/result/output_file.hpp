@@ -82,6 +82,9 @@ class OutputFile {
   /// Throws (io_error) when the disk has no room for `bytes` more.
   void reserve(std::uint64_t bytes);
   void give_back_blocks() const;
+  /// Makes the file as long as it will be and writes that length where a reader looks for it, before anything refers to
+  /// what lies there.
+  void announce_end();
   int descriptor() const;
   hid_t keep(Handle handle, const char* action);
 
