@@ -10,6 +10,7 @@
 #include "coupler/mapping/interface_check.hpp"
 #include "coupler/report/progress.hpp"
 #include "coupler/scheme/rest_watch.hpp"
+#include "proto/clock.hpp"
 #include "proto/result/provenance.hpp"
 
 namespace coupler {
@@ -19,9 +20,7 @@ namespace field = proto::field;
 using Clock = std::chrono::steady_clock;
 constexpr double grace_s = 1.5;  // from SIGTERM to SIGKILL
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+using proto::seconds_since;
 
 /// Generous bound of one message: names, a few fields, the registered operators.
 std::size_t largest_message(const std::vector<proto::RailSeat>& seats) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "coupler/app/coupled_run.hpp"
+#include "proto/clock.hpp"
 #include "proto/result/provenance.hpp"
 #include "proto/result/state_file.hpp"
 
@@ -10,9 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using proto::seconds_since;
 
 }  // namespace
 

@@ -12,6 +12,7 @@
 
 #include "coupler/launch/program_path.hpp"
 #include "coupler/scheme/coupling_scheme.hpp"
+#include "proto/clock.hpp"
 #include "proto/error.hpp"
 
 namespace coupler::conformance {
@@ -24,9 +25,7 @@ constexpr const char* token_name = "QDEM_FEM_SESSION_TOKEN";
 constexpr std::size_t largest_message_bytes = 64u << 20;
 constexpr std::uint64_t n_windows = 1000000000;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using proto::seconds_since;
 
 Patience patience_of(const proto::Coupling& coupling) {
   Patience patience;

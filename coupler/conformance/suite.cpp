@@ -6,6 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "proto/clock.hpp"
 #include "proto/error.hpp"
 
 namespace coupler::conformance {
@@ -48,7 +49,7 @@ std::vector<Finding> run_suite(Bench& bench, const std::set<std::string>& only,
     if (!is_for(check, bench.candidate()) || (!only.empty() && !only.count(check.name))) continue;
     const auto begin = std::chrono::steady_clock::now();
     Finding finding{&check, verdict_of(check, bench), 0.0};
-    finding.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    finding.seconds = proto::seconds_since(begin);
     tell(finding);
     findings.push_back(finding);
   }

@@ -11,6 +11,7 @@
 #include <deque>
 
 #include "coupler/launch/exec_child.hpp"
+#include "proto/clock.hpp"
 #include "proto/error.hpp"
 
 extern char** environ;
@@ -20,9 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using proto::seconds_since;
 
 void require(int status, const std::string& what) {
   if (status < 0) throw proto::Error(proto::ExitCode::os_error, what + ": " + uv_strerror(status));

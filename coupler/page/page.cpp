@@ -13,8 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-const std::string placeholder = "__RUN_DATA__";
-constexpr int format = 1;  // of the data; the page refuses another one
+const std::string data_mark = "__RUN_DATA__";  // where the page wants its data
+constexpr int format = 1;                      // of the data; the page refuses another one
 
 struct RunContent {
   json facts;
@@ -64,12 +64,12 @@ json page_data(const std::vector<std::string>& folders, std::size_t n_characters
 }
 
 std::string filled_page(const std::string& page, const json& data) {
-  const auto place = page.find(placeholder);
-  if (place == std::string::npos || page.find(placeholder, place + 1) != std::string::npos) {
+  const auto place = page.find(data_mark);
+  if (place == std::string::npos || page.find(data_mark, place + 1) != std::string::npos) {
     throw proto::Error(proto::ExitCode::bad_data, "this is not the page of coupler/report_page", "report_page.html",
                        "build the target report_page again");
   }
-  return page.substr(0, place) + script_text(data) + page.substr(place + placeholder.size());
+  return page.substr(0, place) + script_text(data) + page.substr(place + data_mark.size());
 }
 
 }  // namespace coupler::page

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "coupler/supervise/last_words.hpp"
+#include "proto/clock.hpp"
 
 namespace coupler {
 namespace {
@@ -15,9 +16,7 @@ using proto::ExitCode;
 
 constexpr double slice_s = 0.25;  // longest single wait; signals and exits wake it earlier
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using proto::seconds_since;
 
 /// The failure that an exit code of this house stands for; nothing for any other code, and for success.
 std::optional<ExitCode> failure_of(int code) {

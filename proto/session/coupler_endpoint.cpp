@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "proto/clock.hpp"
 #include "proto/error.hpp"
 #include "proto/session/handshake.hpp"
 #include "proto/session/run_directory.hpp"
@@ -19,10 +20,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t smallest_limit = 1 << 20;
 constexpr int send_timeout_ms = 5000;
 constexpr int most_frames_at_once = 256;  // so that wait() returns from a flood
-
-double seconds_since(Clock::time_point then) {
-  return std::chrono::duration<double>(Clock::now() - then).count();
-}
 
 /// One connection that was welcomed.
 struct Peer {

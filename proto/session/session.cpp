@@ -3,14 +3,11 @@
 #include <chrono>
 #include <cmath>
 
+#include "proto/clock.hpp"
 #include "proto/wire/codec.hpp"
 
 namespace proto {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 /// Length and entries of one seat's registration; the coupler judges the values.
 void check_shape(const SeatRegistration& seat) {

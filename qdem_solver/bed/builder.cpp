@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "proto/clock.hpp"
 #include "proto/error.hpp"
 #include "qdem_solver/bed/polyhedron.hpp"
 #include "qdem_solver/bed/sleeper_shape.hpp"
@@ -56,7 +57,7 @@ Bed Builder::build() {
   release();
   come_to_rest();
   finish();
-  report_.build_wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report_.build_wall_s = proto::seconds_since(start);
   check_limits();
   return {std::move(model_), std::move(state_), std::move(report_)};
 }

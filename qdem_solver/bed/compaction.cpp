@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "proto/clock.hpp"
 #include "qdem_solver/bed/builder.hpp"
 #include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/engine/relaxation.hpp"
@@ -37,9 +38,7 @@ constexpr double share_of_limits = 0.5;   // rest is better than the case asks f
 constexpr double telling_interval = 5;    // [s] of work
 constexpr unsigned held_along_track = 1u;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+using proto::seconds_since;
 
 }  // namespace
 

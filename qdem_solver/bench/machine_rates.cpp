@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "proto/clock.hpp"
+
 namespace qdem::bench {
 namespace {
 
@@ -12,9 +14,7 @@ typedef double Vector __attribute__((vector_size(64)));
 constexpr int n_accumulators = 12;  // hides the latency of four cycles on two units
 constexpr int rounds = 5;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+using proto::seconds_since;
 
 #if defined(__x86_64__)
 __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))

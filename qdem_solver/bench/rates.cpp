@@ -7,6 +7,7 @@
 #include <cstring>
 #include <ctime>
 
+#include "proto/clock.hpp"
 #include "qdem_solver/bench/machine_rates.hpp"
 #include "qdem_solver/engine/stability.hpp"
 
@@ -18,7 +19,7 @@ constexpr double tiny_step = 1e-8;  // [s]
 
 class Clock {
  public:
-  double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(); }
+  double wall() const { return proto::seconds_since(wall_); }
   double cpu() const { return static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC; }
 
  private:

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "proto/clock.hpp"
 #include "proto/error.hpp"
 #include "qdem_solver/participant/bed_record.hpp"
 #include "qdem_solver/participant/rail_foot.hpp"
@@ -54,7 +55,7 @@ RunFigures run_alone(const proto::CaseFile& file, const BedSource& source, const
     record.look(bed.state().time);
     if (report && look % 40 == 0) report(bed.state().time);
   }
-  figures.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  figures.wall = proto::seconds_since(begin);
   figures.element_updates_per_s =
       static_cast<double>(figures.steps) * static_cast<double>(bed.model().n_elements()) / figures.wall;
   add_end_state(bed, energy, figures);
