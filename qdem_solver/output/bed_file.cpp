@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "proto/error.hpp"
+#include "qdem_solver/output/exchange.hpp"
 #include "qdem_solver/output/hdf5_store.hpp"
 
 namespace qdem {
@@ -113,47 +114,44 @@ void take_planes(const Hdf5Store& file, Model& model) {
   }
 }
 
-void put_state(Hdf5Store& file, const Model& model, const State& state) {
+/// What exchange() names, into a bed file or out of it.
+class StoreArchive : public proto::StateArchive {
+ public:
+  explicit StoreArchive(Hdf5Store& to) : to_(&to) {}
+  explicit StoreArchive(const Hdf5Store& from) : from_(&from) {}
+  using StateArchive::operator();
+  bool restoring() const override { return from_ != nullptr; }
+  void operator()(const std::string& name, Reals& values) override {
+    if (to_ != nullptr) return to_->put(name, values);
+    values = from_->reals(name);
+  }
+  void operator()(const std::string& name, std::vector<std::int64_t>& values) override {
+    if (to_ != nullptr) return to_->put(name, Integers(values.begin(), values.end()));
+    const Integers read = from_->integers(name);
+    values.assign(read.begin(), read.end());
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& name, const std::string& problem) const override {
+    throw proto::Error(proto::ExitCode::bad_data, "the bed does not fit: " + problem, name);
+  }
+  Hdf5Store* to_ = nullptr;
+  const Hdf5Store* from_ = nullptr;
+};
+
+void put_state(Hdf5Store& file, State state) {
   file.put("state/x", state.x, "m");
   file.put("state/v", state.v, "m/s");
   file.put("state/a", state.a, "m/s2");
-  const ContactState& contact = state.contact;
-  Integers keys, offsets(contact.triangle_offsets.begin(), contact.triangle_offsets.end()),
-      triangles(contact.triangles.begin(), contact.triangles.end());
-  for (const ContactKey& k : contact.keys) keys.insert(keys.end(), {k.body_a, k.body_b, k.feature_a, k.feature_b});
-  Reals slip, roll;
-  for (const Vector3d& s : contact.slip) append(slip, s);
-  for (const Vector3d& r : contact.roll) append(roll, r);
-  file.put("state/contact/keys", keys);
-  file.put("state/contact/triangle_offsets", offsets);
-  file.put("state/contact/triangles", triangles);
-  file.put("state/contact/slip", slip, "m");
-  if (model.contact.rolling_friction > 0) file.put("state/contact/roll", roll, "rad");
-  file.put("state/contact/travel", contact.travel, "m");
-  file.put("state/contact/rebuild_time", Reals{contact.rebuild_time}, "s");
-  file.put("state/contact/rebuilds_and_list_id", Integers{contact.rebuilds, static_cast<long long>(contact.list_id)});
+  StoreArchive archive(file);
+  exchange(archive, "state/contact/", state.contact);
 }
 
 void take_state(const Hdf5Store& file, const Model& model, State& state) {
   state.x = file.reals("state/x"), state.v = file.reals("state/v"), state.a = file.reals("state/a");
   ContactState& contact = state.contact;
-  const Integers keys = file.integers("state/contact/keys"), offsets = file.integers("state/contact/triangle_offsets"),
-                 triangles = file.integers("state/contact/triangles"),
-                 counts = file.integers("state/contact/rebuilds_and_list_id");
-  for (std::size_t i = 0; i + 3 < keys.size(); i += 4) {
-    contact.keys.push_back({int(keys[i]), int(keys[i + 1]), int(keys[i + 2]), int(keys[i + 3])});
-  }
-  contact.triangle_offsets.assign(offsets.begin(), offsets.end());
-  contact.triangles.assign(triangles.begin(), triangles.end());
-  const Reals slip = file.reals("state/contact/slip");
-  for (std::size_t i = 0; i + 2 < slip.size(); i += 3) contact.slip.push_back(triple(slip, i));
-  if (model.contact.rolling_friction > 0) {
-    const Reals roll = file.reals("state/contact/roll");
-    for (std::size_t i = 0; i + 2 < roll.size(); i += 3) contact.roll.push_back(triple(roll, i));
-  }
-  contact.travel = file.reals("state/contact/travel");
-  contact.rebuild_time = file.reals("state/contact/rebuild_time").at(0);
-  contact.rebuilds = counts.at(0), contact.list_id = static_cast<std::uint64_t>(counts.at(1));
+  StoreArchive archive(file);
+  exchange(archive, "state/contact/", contact);
   const auto n = static_cast<std::size_t>(model.n_values);
   if (state.x.size() != n || state.v.size() != n || state.a.size() != n || contact.slip.size() != contact.keys.size() ||
       contact.travel.size() != model.bodies.size() || contact.triangle_offsets.size() != contact.keys.size() + 1) {
@@ -233,7 +231,7 @@ void write_bed_file(const std::string& path, const Bed& bed) {
     put_templates(file, bed.model);
     put_bodies(file, bed.model);
     put_planes(file, bed.model);
-    put_state(file, bed.model, bed.state);
+    put_state(file, bed.state);
     put_report(file, bed.report);
     file.close();
   } catch (const proto::Error&) {

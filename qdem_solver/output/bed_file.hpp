@@ -8,7 +8,7 @@
 namespace qdem {
 
 /// Version of the layout and of the building procedure; part of the inputs' hash, so that old files are built anew.
-inline constexpr int bed_file_format = 7;
+inline constexpr int bed_file_format = 8;
 
 /// Writes `bed` to `path`: first beside it under a name of its own, then renamed, so that a reader never sees half a
 /// file. Materials, contact law, bearings and gravity are inputs and are not stored. Throws proto::Error:

@@ -12,18 +12,6 @@ void exchange_keys(proto::StateArchive& archive, const std::string& name, std::v
   for (std::size_t i = 0; i < list.size(); i += 4) keys.push_back({list[i], list[i + 1], list[i + 2], list[i + 3]});
 }
 
-void exchange(proto::StateArchive& archive, const std::string& prefix, ContactState& contact) {
-  exchange_keys(archive, prefix + "keys", contact.keys);
-  archive(prefix + "triangle_offsets", contact.triangle_offsets);
-  archive(prefix + "triangles", contact.triangles);
-  archive(prefix + "slip", contact.slip);
-  archive(prefix + "roll", contact.roll);
-  archive(prefix + "travel", contact.travel);
-  archive(prefix + "rebuilds", contact.rebuilds);
-  archive(prefix + "rebuild_time", contact.rebuild_time);
-  archive(prefix + "list_id", contact.list_id);
-}
-
 void exchange(proto::StateArchive& archive, const std::string& prefix, StoredEnergy& energy) {
   archive(prefix + "kinetic", energy.kinetic);
   archive(prefix + "strain", energy.strain);
@@ -61,6 +49,18 @@ void exchange(proto::StateArchive& archive, const std::string& name, std::vector
 }
 
 }  // namespace
+
+void exchange(proto::StateArchive& archive, const std::string& prefix, ContactState& contact) {
+  exchange_keys(archive, prefix + "keys", contact.keys);
+  archive(prefix + "triangle_offsets", contact.triangle_offsets);
+  archive(prefix + "triangles", contact.triangles);
+  archive(prefix + "slip", contact.slip);
+  archive(prefix + "roll", contact.roll);
+  archive(prefix + "travel", contact.travel);
+  archive(prefix + "rebuilds", contact.rebuilds);
+  archive(prefix + "rebuild_time", contact.rebuild_time);
+  archive(prefix + "list_id", contact.list_id);
+}
 
 void exchange(proto::StateArchive& archive, const std::string& prefix, State& state) {
   const std::size_t n = state.x.size();

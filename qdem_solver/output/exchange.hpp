@@ -1,4 +1,4 @@
-// A State on its way into a checkpoint and back.
+// A State on its way into a file and back.
 #pragma once
 
 #include <string>
@@ -10,5 +10,8 @@ namespace qdem {
 
 /// All of `state`, under names that begin with `prefix`. Its arrays must fit the model that it is used with.
 void exchange(proto::StateArchive& archive, const std::string& prefix, State& state);
+
+/// Its contacts alone.
+void exchange(proto::StateArchive& archive, const std::string& prefix, ContactState& contact);
 
 }  // namespace qdem

@@ -1,7 +1,12 @@
 // Small scenes of touching bodies for the contact tests.
 #pragma once
 
+#include <gtest/gtest.h>
+#include <omp.h>
+
 #include <Eigen/Geometry>
+#include <cmath>
+#include <cstring>
 #include <random>
 
 #include "qdem_solver/contact/contact_stage.hpp"
@@ -96,6 +101,44 @@ inline Resultant resultant(const qdem::Model& model, const qdem::State& state, c
     }
   }
   return sum;
+}
+
+/// Contacts of a body at the origin and another one shifted by so much, which must give finite forces without resultant
+/// moment; the resultant.
+inline Resultant finite_resultant(const qdem::Model& pair, const Eigen::Vector3d& shift) {
+  qdem::State state = make_state(pair, {qdem::Placement{}, {Eigen::Matrix3d::Identity(), shift}});
+  qdem::ContactStage stage(pair);
+  stage.update_candidates(state);
+  stage.compute(state, 1e-5);
+  const auto sum = resultant(pair, state, stage);
+  EXPECT_TRUE(std::isfinite(sum.size));
+  EXPECT_LT(sum.moment.norm(), 1e-12 * std::max(1.0, sum.size));
+  for (const auto& rates : stage.rates(state, 1e-6)) EXPECT_TRUE(std::isfinite(rates.particle.stiffness));
+  return sum;
+}
+
+struct ComputedContacts {
+  std::vector<double> forces;  ///< laid out like State::x [N]
+  std::vector<qdem::ContactKey> keys;
+};
+
+/// Of bodies strewn in a cube of the given half edge, after three steps, by so many threads.
+inline ComputedContacts contacts_by(int n_threads, const qdem::Model& model, double half_edge) {
+  omp_set_num_threads(n_threads);
+  std::mt19937_64 random(6);
+  qdem::State state = strewn(model, random, half_edge, 1.0);
+  qdem::ContactStage stage(model);
+  stage.update_candidates(state);
+  for (int i = 0; i < 3; ++i) stage.compute(state, 1e-5);
+  ComputedContacts result{std::vector<double>(state.x.size(), 0.0), state.contact.keys};
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) stage.gather(static_cast<int>(b), result.forces);
+  return result;
+}
+
+inline void expect_same_bytes_by_threads(const qdem::Model& model, double half_edge) {
+  const auto one = contacts_by(1, model, half_edge), two = contacts_by(2, model, half_edge);
+  EXPECT_TRUE(one.keys == two.keys);
+  EXPECT_EQ(std::memcmp(one.forces.data(), two.forces.data(), one.forces.size() * sizeof(double)), 0);
 }
 
 }  // namespace tests

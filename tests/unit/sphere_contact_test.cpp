@@ -186,14 +186,7 @@ TEST(SphereContacts, DegeneratePairsGiveFiniteForces) {
   // Corner on corner: concentric, inside each other, just touching; the same place.
   for (const Vector3d& shift :
        {corner, Vector3d(corner + Vector3d(0, 0, 1e-9)), Vector3d(corner + Vector3d(0, 2 * r, 0)), Vector3d(0, 0, 0)}) {
-    qdem::State state = make_state(model, {qdem::Placement{}, {Eigen::Matrix3d::Identity(), shift}});
-    qdem::ContactStage stage(model);
-    stage.update_candidates(state);
-    stage.compute(state, 1e-5);
-    const auto sum = resultant(model, state, stage);
-    EXPECT_TRUE(std::isfinite(sum.size));
-    EXPECT_LT(sum.moment.norm(), 1e-12 * std::max(1.0, sum.size));
-    for (const auto& rates : stage.rates(state, 1e-6)) EXPECT_TRUE(std::isfinite(rates.particle.stiffness));
+    finite_resultant(model, shift);
   }
   const auto concentric = qdem::meet({1, 2, 3}, 0.1, {1, 2, 3}, 0.3);
   EXPECT_TRUE(near_rel(concentric.gap, -0.4, 1e-14));
@@ -201,19 +194,7 @@ TEST(SphereContacts, DegeneratePairsGiveFiniteForces) {
 }
 
 TEST(SphereContacts, ThreadsDoNotChangeAByte) {
-  const qdem::Model model = model_of_spheres(60);
-  std::vector<double> forces[2];
-  for (int run = 0; run < 2; ++run) {
-    omp_set_num_threads(run + 1);
-    std::mt19937_64 random(6);
-    qdem::State state = strewn(model, random, 0.13, 1.0);
-    qdem::ContactStage stage(model);
-    stage.update_candidates(state);
-    for (int i = 0; i < 3; ++i) stage.compute(state, 1e-5);
-    forces[run].assign(state.x.size(), 0.0);
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) stage.gather(static_cast<int>(b), forces[run]);
-  }
-  EXPECT_EQ(std::memcmp(forces[0].data(), forces[1].data(), forces[0].size() * sizeof(double)), 0);
+  expect_same_bytes_by_threads(model_of_spheres(60), 0.13);
 }
 
 TEST(SphereContacts, SlipAndRollSurviveARebuild) {
