@@ -31,13 +31,13 @@ void judge(Advice& advice, const proto::Coupling& coupling, const SeatAxis& axis
     advice.warnings.push_back(fmt::format("{}: the pad has no damping; {} is stable for damped pads only", axis.name,
                                           proto::name_of(coupling.scheme)));
   if (!is_explicit(coupling.scheme) || !advice.refusal.empty()) return;
-  const double growth = growth_per_window(coupling.scheme, axis.track, coupling.window_s, scan.n_windows);
+  const double growth = growth_per_window(coupling.scheme, coupling, axis.track, coupling.window_s, scan.n_windows);
   if (growth > 1.0 + scan.growth)
     advice.refusal = fmt::format(
         "scheme {} is not stable with windows of {:g} s: on {}, lumped, it grows by a factor of {:.4g} a window "
         "(critical window: {})",
         proto::name_of(coupling.scheme), coupling.window_s, axis.name, growth,
-        window_text(critical_window(coupling.scheme, axis.track)));
+        window_text(critical_window(coupling.scheme, coupling, axis.track)));
 }
 
 std::string table(const proto::Coupling& coupling, const SeatAxis& axis) {
@@ -51,7 +51,7 @@ std::string table(const proto::Coupling& coupling, const SeatAxis& axis) {
   text += fmt::format("  lag of E0 and E1 outweighs the dashpot beyond {}\n", window_text(lag_window(axis.track)));
   text += "  critical windows on the lumped seat:";
   for (const Scheme scheme : explicit_schemes)
-    text += fmt::format("  {} {}", proto::name_of(scheme), window_text(critical_window(scheme, axis.track)));
+    text += fmt::format("  {} {}", proto::name_of(scheme), window_text(critical_window(scheme, coupling, axis.track)));
   return text;
 }
 

@@ -36,14 +36,15 @@ double lag_window(const LumpedTrack& track) {
   return track.pad.stiffness > 0.0 ? 0.8 * track.pad.damping / track.pad.stiffness : infinite;
 }
 
-double growth_per_window(proto::Scheme scheme, const LumpedTrack& given, double window_s, int n_windows) {
+double growth_per_window(proto::Scheme scheme, const proto::Coupling& coupling, const LumpedTrack& given,
+                         double window_s, int n_windows) {
   LumpedTrack track = given;
   track.u = 1.0, track.v = 0.0, track.x = -0.5, track.y = 0.3 * pad_frequency(track);
   LumpedRail rail(track);
   LumpedSleeper sleeper(track);
   // Sub-steps of a tenth of the sleeper's own limit: the question is the coupling's.
   const double step = 0.2 / std::sqrt((track.pad.stiffness + track.sleeper_stiffness) / track.sleeper_mass);
-  auto windows = make_scheme(scheme, {}, {window_s, sub_cycles_for(window_s, step), {track.pad}});
+  auto windows = make_scheme(scheme, coupling, {window_s, sub_cycles_for(window_s, step), {track.pad}});
   windows->start({{track.u}, {track.v}, {track.x}, {track.y}});
   double half_way = 0.0;
   for (int n = 0; n < n_windows; ++n) {
@@ -55,10 +56,11 @@ double growth_per_window(proto::Scheme scheme, const LumpedTrack& given, double 
   return half_way > 0.0 ? std::pow(end / half_way, 2.0 / n_windows) : 0.0;
 }
 
-double critical_window(proto::Scheme scheme, const LumpedTrack& track, const StabilityScan& scan) {
+double critical_window(proto::Scheme scheme, const proto::Coupling& coupling, const LumpedTrack& track,
+                       const StabilityScan& scan) {
   const double unit = 1.0 / pad_frequency(track);
   const auto stable = [&](double window_s) {
-    return growth_per_window(scheme, track, window_s, scan.n_windows) <= 1.0 + scan.growth;
+    return growth_per_window(scheme, coupling, track, window_s, scan.n_windows) <= 1.0 + scan.growth;
   };
   double low = 0.0, high = scan.shortest * unit;
   while (stable(high)) {

@@ -28,12 +28,14 @@ struct StabilityScan {
   double longest = 30.0;   ///< last one
 };
 
-/// Factor per window by which the motion of `scheme` on `track` grows in `n_windows` windows of `window_s` [s], over
-/// the second half; infinite when it overflows. Only schemes with a pad.
-double growth_per_window(proto::Scheme scheme, const LumpedTrack& track, double window_s, int n_windows);
+/// Factor per window by which the motion of `scheme`, all else as `coupling` says, on `track` grows in `n_windows`
+/// windows of `window_s` [s], over the second half; infinite when it overflows. Only schemes with a pad.
+double growth_per_window(proto::Scheme scheme, const proto::Coupling& coupling, const LumpedTrack& track,
+                         double window_s, int n_windows);
 
 /// Longest window [s] up to which `scheme` does not grow on `track`: the scheme itself is run on it with ever longer
 /// windows. 0 when it grows from the shortest on; infinite when none grew. Only schemes with a pad.
-double critical_window(proto::Scheme scheme, const LumpedTrack& track, const StabilityScan& scan = {});
+double critical_window(proto::Scheme scheme, const proto::Coupling& coupling, const LumpedTrack& track,
+                       const StabilityScan& scan = {});
 
 }  // namespace coupler

@@ -265,6 +265,10 @@ void CoupledRun::finish() {
   const auto facts = supervisor_.finish();
   summary_.facts.insert(summary_.facts.end(), facts.begin(), facts.end());
   if (record_) record_->close();
+  if (frames_) {
+    endpoint_.observe({});
+    frames_->close();
+  }
   update_wall_time();
 }
 

@@ -29,6 +29,8 @@ int run_replay(const ReplayOptions& options) {
   conformance::Subject subject(bench, settings);
   fmt::print("{} as {}; {} from {}\n", fmt::join(candidate.command, " "), name, options.played, options.folder);
   const auto report = conformance::replay(subject, log, name, settings.folder);
+  if (report.n_results == 0)
+    throw proto::Error(proto::ExitCode::bad_data, "the record holds no answer of " + name, options.folder);
   fmt::print("{}", conformance::replay_table(report));
   const bool same =
       options.tolerance > 0.0 ? report.largest_relative() <= options.tolerance : report.first_difference.empty();

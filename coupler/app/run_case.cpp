@@ -187,6 +187,8 @@ int run_in(const CaseInput& input, const RunFolder& folder, const Orders& orders
 void apply(const RunOptions& options, proto::Coupling& coupling) {
   use_fem(coupling, options.fem);
   if (!options.scheme.empty()) coupling.scheme = proto::scheme_of(options.scheme);
+  if (const auto why = proto::why_no_switch(coupling); !why.empty())
+    throw proto::Error(proto::ExitCode::config, why, "--scheme", "give another coupling.audit.switch_to or action");
   if (options.sub_cycle_factor > 0) coupling.sub_cycle_factor = options.sub_cycle_factor;
   if (options.window_s > 0.0) {
     const double duration = static_cast<double>(coupling.n_windows) * coupling.window_s;

@@ -82,6 +82,9 @@ void CoupledRun::resume(const Checkpoint& set) {
                        fmt::format("the checkpoint was made with windows of {:g} s, the case has {:g} s",
                                    manifest.window_s, input_.coupling.window_s),
                        "coupling.window_s", "time is counted in windows: run the changed case from its beginning");
+  for (const auto& name : names_)
+    if (manifest.hashes.count(name) == 0)
+      throw proto::Error(proto::ExitCode::config, "the checkpoint holds no state of " + name, set.folder);
   slots_.forget_later(set);
   std::map<std::string, std::uint64_t> tickets;
   for (const auto& name : names_)

@@ -80,6 +80,7 @@ void RunJudge::report() {
 
 void RunJudge::exchange(proto::StateArchive& archive) {
   audit_.exchange(archive);
+  watch_.exchange(archive);
   seen_.exchange(archive);
 }
 

@@ -159,13 +159,18 @@ proto::Result Subject::solve(const proto::Advance& request) {
 
 proto::Result Subject::solve(const proto::Advance& request, const std::function<void()>& look) {
   const auto ticket = send(request);
+  const auto begin = Clock::now();
   std::optional<proto::Result> result;
   while (!result) {
     for (const auto& event : endpoint_->wait(0.02)) {
-      if (!event.message || event.message->in_reply_to != ticket)
-        throw ParticipantError(name_, proto::ExitCode::protocol, "no result came", event.problem);
-      result = std::get<proto::Result>(event.message->body);
+      const bool answers = event.message && event.message->in_reply_to == ticket;
+      const auto* answer = answers ? std::get_if<proto::Result>(&event.message->body) : nullptr;
+      if (!answer) throw ParticipantError(name_, proto::ExitCode::protocol, "no result came", event.problem);
+      result = *answer;
     }
+    if (!result && seconds_since(begin) > candidate_.coupling.stall_timeout_s)
+      throw ParticipantError(name_, proto::ExitCode::unavailable, "no result came in time",
+                             fmt::format("window {}", window_));
     children_.poll();
     if (const int signal = children_.stop_signal()) throw Interrupted(signal);
     look();

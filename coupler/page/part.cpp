@@ -18,7 +18,7 @@ const std::string displacement_name = "/VTKHDF/PointData/displacement", velocity
 }  // namespace
 
 Part::Part(proto::ResultReader file, std::string kind)
-    : file_(std::move(file)), kind_(std::move(kind)), mesh_(read_mesh(file_)), surface_(surface_of(mesh_)) {
+    : file_(std::move(file)), kind_(std::move(kind)), mesh_(study::read_mesh(file_)), surface_(surface_of(mesh_)) {
   time_ = file_.read_rows("/VTKHDF/Steps/Values", file_.n_steps()).values;
   std::map<std::pair<bool, std::int64_t>, std::size_t> place;
   for (std::size_t b = 0; b < n_bodies(); ++b) place[{surface_.bodies[b].sleeper, surface_.bodies[b].number}] = b;

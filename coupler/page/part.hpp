@@ -40,7 +40,7 @@ class Part {
 
   proto::ResultReader file_;
   std::string kind_;
-  Mesh mesh_;
+  study::Mesh mesh_;
   Surface surface_;
   std::vector<double> time_;
   std::vector<std::vector<std::uint32_t>> cells_of_;  ///< [bodies]

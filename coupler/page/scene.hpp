@@ -7,7 +7,7 @@
 namespace coupler::page {
 
 /// {"parts": [geometry with frames and histories], "frames": time [s] of each frame, "history_time" [s],
-/// "outputs": steps of the run, "wheel": {"radius" [m], "path": table name}}, of qdem.h5 and fem.h5 in `folder`, in at
+/// "outputs": steps of the run}, of qdem.h5 and fem.h5 in `folder`, in at
 /// most `n_characters` of JSON. Outputs are left out evenly until it fits; the histories of bodies take a quarter at
 /// most. {"note": why} where there is nothing to show or not even two frames fit.
 /// Throws proto::Error (bad_data) for a damaged file.

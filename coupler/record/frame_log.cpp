@@ -35,6 +35,10 @@ void FrameLog::add(const std::string& participant, bool sent, proto::Span<const 
     throw proto::Error(proto::ExitCode::io_error, strerror(errno), path_);
 }
 
+void FrameLog::close() {
+  if (std::fclose(file_.release()) != 0) throw proto::Error(proto::ExitCode::io_error, strerror(errno), path_);
+}
+
 FrameLogReader::FrameLogReader(const std::string& path) : path_(path), file_(path, std::ios::binary) {
   if (!file_)
     throw proto::Error(proto::ExitCode::missing_input, "there is no record of the run's frames", path,

@@ -25,6 +25,8 @@ class FrameLog {
   explicit FrameLog(const std::string& path);
   /// Throws proto::Error (io_error).
   void add(const std::string& participant, bool sent, proto::Span<const std::uint8_t> frame);
+  /// Ends the log; nothing may follow. Throws proto::Error (io_error) when its end cannot be written.
+  void close();
 
  private:
   struct Close {

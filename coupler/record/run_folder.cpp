@@ -34,16 +34,14 @@ std::string default_folder(const std::string& case_name) {
 
 }  // namespace
 
-RunFolder::RunFolder(const std::string& out, const std::string& case_name)
-    : path_(fs::absolute(out.empty() ? default_folder(case_name) : out).lexically_normal().string()) {
+RunFolder::RunFolder(const std::string& out, const std::string& case_name) : RunFolder() {
+  path_ = fs::absolute(out.empty() ? default_folder(case_name) : out).lexically_normal().string();
   std::error_code error;
   fs::create_directories(path_, error);
   if (error) fail("cannot create the output folder (" + error.message() + ")", path_);
   lock();
-  if (!fs::is_empty(path_, error) || error) {
-    close(lock_);
+  if (!fs::is_empty(path_, error) || error)
     fail("the output folder is not empty", path_, "give another --out, or remove what is in it");
-  }
 }
 
 RunFolder RunFolder::reopen(const std::string& path) {
@@ -59,9 +57,7 @@ void RunFolder::lock() {
   // The lock is on the folder itself: it leaves no file behind and ends with the process, however that ends.
   lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0) fail(std::string("cannot open the output folder (") + strerror(errno) + ")", path_);
-  if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
-  close(lock_);
-  fail("another run is writing to this folder", path_, "give another --out");
+  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) fail("another run is writing to this folder", path_, "give another --out");
 }
 
 RunFolder::~RunFolder() {

@@ -13,6 +13,7 @@ give_up() {
 mkdir -p "$work" "$(dirname "$page")"
 cd "$work"
 if ! cmp -s "$source_folder/package-lock.json" installed.json || [[ ! -d node_modules ]]; then
+  rm -f installed.json  # what npm leaves half-way must not count
   cp "$source_folder/package.json" "$source_folder/package-lock.json" .
   npm ci --ignore-scripts --no-audit --no-fund --prefer-offline --fetch-retries=1 --fetch-timeout=60000 >npm.log 2>&1 ||
     give_up "npm could not install the packages of package-lock.json ($work/npm.log)"

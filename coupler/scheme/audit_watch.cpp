@@ -25,4 +25,8 @@ std::vector<std::string> AuditWatch::look(const Audit& audit, bool last) {
   return beyond;
 }
 
+void AuditWatch::exchange(proto::StateArchive& archive) {
+  for (std::size_t i = 0; i < told_.size(); ++i) archive("audit/told_" + std::to_string(i), told_[i]);
+}
+
 }  // namespace coupler

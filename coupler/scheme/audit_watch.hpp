@@ -19,6 +19,9 @@ class AuditWatch {
   /// After a window (`last`: of the run). Returns what is newly beyond its limit, figure, value and key by name.
   std::vector<std::string> look(const Audit& audit, bool last);
 
+  /// What was said already.
+  void exchange(proto::StateArchive& archive);
+
  private:
   proto::AuditLimits limits_;
   std::array<bool, 3> told_ = {};

@@ -124,8 +124,19 @@ void CouplingScheme::take_sleeper(WindowRecord& record, const proto::Result& sle
   record.pad_work = take(sleeper, "qdem", field::pad_work, n);
   record.sleeper_displacement = take(sleeper, "qdem", field::sleeper_displacement, n);
   record.sleeper_velocity = take(sleeper, "qdem", field::sleeper_velocity, n);
-  if (sleeper.largest_step_s)
-    state_.sub_cycles = sub_cycles_for(window_s(), sleeper.largest_step_s) * setup_.sub_cycle_factor;
+  if (sleeper.largest_step_s) take_step(*sleeper.largest_step_s);
+}
+
+void CouplingScheme::take_step(double largest_step_s) {
+  const auto needed = sub_cycles_for(window_s(), largest_step_s);
+  if (!setup_.fixed_sub_cycles) {
+    state_.sub_cycles = needed * setup_.sub_cycle_factor;
+  } else if (needed > state_.sub_cycles) {
+    throw proto::Error(proto::ExitCode::numerics,
+                       "qdem needs " + std::to_string(needed) + " sub-cycles now, a rigid joint keeps its first " +
+                           std::to_string(state_.sub_cycles),
+                       "", "raise coupling.sub_cycle_factor");
+  }
 }
 
 void CouplingScheme::solve_sleeper(WindowRecord& record, const proto::Advance& request, Side& side) {

@@ -25,6 +25,7 @@ struct SchemeSetup {
   std::vector<proto::PadLaw> laws;  ///< of every interface value, as the pad's owner registered it
   proto::Prolongation prolongation = proto::Prolongation::linear;
   std::uint32_t sub_cycle_factor = 1;  ///< how many times as many are taken
+  bool fixed_sub_cycles = false;       ///< the first window's number holds for all; more needed is an error
 };
 
 /// What the rail's pad is held against: window means of the sleeper's motion [m], [m/s]; and the carry to subtract [N].
@@ -80,6 +81,8 @@ class CouplingScheme {
 
  private:
   void update(const WindowRecord& record);
+  /// Sub-cycles of the next window.
+  void take_step(double largest_step_s);
 
   SchemeSetup setup_;
 };

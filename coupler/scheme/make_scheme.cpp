@@ -10,6 +10,7 @@ std::unique_ptr<CouplingScheme> make_scheme(proto::Scheme scheme, const proto::C
   using proto::Scheme;
   setup.prolongation = coupling.prolongation;
   setup.sub_cycle_factor = static_cast<std::uint32_t>(coupling.sub_cycle_factor);
+  setup.fixed_sub_cycles = proto::is_rigid(scheme);
   switch (scheme) {
     case Scheme::robin_explicit:
       return std::make_unique<RobinScheme>(std::move(setup), false);

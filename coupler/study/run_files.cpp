@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "coupler/study/mesh.hpp"
 #include "coupler/study/stone_mesh.hpp"
 #include "proto/error.hpp"
 
@@ -208,7 +209,8 @@ std::optional<Load> RunFiles::load() const {
   }
   load.source = "rail seats";
   if (load.force.empty()) {
-    for (auto& pressure : pressures()) load = {"sleeper bottom", std::move(pressure.time), std::move(pressure.force)};
+    auto all = pressures();
+    if (!all.empty()) load = {"sleeper bottom", std::move(all[0].time), std::move(all[0].force)};
   }
   if (load.force.empty()) return std::nullopt;
   return with_extremes(std::move(load));
@@ -238,10 +240,9 @@ std::optional<ContactHistory> RunFiles::contacts() const {
 std::set<int> RunFiles::stone_numbers() const {
   std::set<int> numbers;
   if (!qdem_) return numbers;
-  const auto body = qdem_->read("/VTKHDF/CellData/body").values,
-             sleeper = qdem_->read("/VTKHDF/CellData/sleeper").values;
-  for (std::size_t i = 0; i < body.size(); ++i) {
-    if (sleeper[i] == 0) numbers.insert(static_cast<int>(body[i]));
+  const Mesh mesh = read_mesh(*qdem_);
+  for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
+    if (!mesh.sleeper[cell]) numbers.insert(static_cast<int>(mesh.bodies[cell]));
   }
   return numbers;
 }

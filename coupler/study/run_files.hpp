@@ -65,7 +65,7 @@ class RunFiles {
 
   const std::optional<proto::ResultReader>& qdem() const { return qdem_; }
   const std::optional<proto::ResultReader>& coupling() const { return coupling_; }
-  /// Case name, hash and text of the run, and the folder's files that were read.
+  /// Case name, hash and text of the run.
   proto::Attributes provenance() const;
 
   std::vector<SeatHistory> seats() const;

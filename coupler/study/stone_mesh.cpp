@@ -7,41 +7,49 @@
 #include <limits>
 #include <map>
 
+#include "coupler/study/mesh.hpp"
+#include "proto/error.hpp"
+
 namespace coupler::study {
 namespace {
 
 using Eigen::Vector3d;
 
-/// The tetrahedra of qdem.h5 with what is needed of them.
-struct Mesh {
-  explicit Mesh(const proto::ResultReader& qdem)
-      : points(qdem.read("/VTKHDF/Points").values),
-        corners(qdem.read("/VTKHDF/Connectivity").values),
-        body(qdem.read("/VTKHDF/CellData/body").values),
-        sleeper(qdem.read("/VTKHDF/CellData/sleeper").values) {}
+constexpr int tetrahedron = 10;  // of VTK
 
-  std::size_t n_cells() const { return body.size(); }
-  std::size_t corner(std::size_t cell, int k) const { return static_cast<std::size_t>(corners[4 * cell + k]); }
-  Vector3d point(std::size_t i) const { return Vector3d(points[3 * i], points[3 * i + 1], points[3 * i + 2]); }
-  double volume(std::size_t cell) const {
-    const Vector3d a = point(corner(cell, 0));
-    const Vector3d p = point(corner(cell, 1)) - a, q = point(corner(cell, 2)) - a, r = point(corner(cell, 3)) - a;
-    return p.cross(q).dot(r) / 6;
+Mesh read_stones(const proto::ResultReader& qdem) {
+  auto mesh = read_mesh(qdem);
+  for (const auto type : mesh.types) {
+    if (type == tetrahedron) continue;
+    throw proto::Error(proto::ExitCode::bad_data, "stones that are not of tetrahedra", "/VTKHDF/Types");
   }
+  return mesh;
+}
 
-  std::vector<double> points, corners, body, sleeper;
-};
+std::size_t corner(const Mesh& mesh, std::size_t cell, std::size_t k) {
+  return mesh.corners[mesh.offsets[cell] + k];
+}
+
+Vector3d point(const Mesh& mesh, std::size_t cell, std::size_t k) {
+  return Eigen::Map<const Vector3d>(&mesh.points[3 * corner(mesh, cell, k)]);
+}
+
+double volume_of(const Mesh& mesh, std::size_t cell) {
+  const Vector3d a = point(mesh, cell, 0);
+  const Vector3d p = point(mesh, cell, 1) - a, q = point(mesh, cell, 2) - a, r = point(mesh, cell, 3) - a;
+  return p.cross(q).dot(r) / 6;
+}
 
 }  // namespace
 
 std::optional<analysis::Footprint> sleeper_box(const proto::ResultReader& qdem) {
-  const Mesh mesh(qdem);
+  const Mesh mesh = read_stones(qdem);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Vector3d low = Vector3d::Constant(infinity), high = -low;
   for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
-    if (mesh.sleeper[cell] == 0) continue;
-    for (int k = 0; k < 4; ++k) {
-      const Vector3d x = mesh.point(mesh.corner(cell, k));
+    if (!mesh.sleeper[cell]) continue;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vector3d x = point(mesh, cell, k);
       low = low.cwiseMin(x), high = high.cwiseMax(x);
     }
   }
@@ -50,24 +58,27 @@ std::optional<analysis::Footprint> sleeper_box(const proto::ResultReader& qdem) 
 }
 
 StoneMesh::StoneMesh(const proto::ResultReader& qdem) {
-  const Mesh mesh(qdem);
-  std::map<double, std::int64_t> numbers;  // of a body among the stones
+  const Mesh mesh = read_stones(qdem);
+  std::map<std::int64_t, std::int64_t> numbers;  // of a body among the stones
   in_stone_.resize(mesh.n_cells());
   for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
-    in_stone_[cell] = mesh.sleeper[cell] == 0;
-    if (in_stone_[cell]) numbers[mesh.body[cell]] = 0;
+    in_stone_[cell] = !mesh.sleeper[cell];
+    if (in_stone_[cell]) numbers[mesh.bodies[cell]] = 0;
   }
   std::int64_t next = 0;
   for (auto& number : numbers) number.second = next++;
-  stone_of_.assign(mesh.points.size() / 3, -1);
+  stone_of_.assign(mesh.n_points(), -1);
   share_.assign(stone_of_.size(), 0.0);
   std::vector<double> volume(numbers.size(), 0.0);
   std::size_t n_cells = 0;
   for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
     if (!in_stone_[cell]) continue;
-    const auto stone = numbers[mesh.body[cell]];
-    const double v = mesh.volume(cell);
-    for (int k = 0; k < 4; ++k) stone_of_[mesh.corner(cell, k)] = stone, share_[mesh.corner(cell, k)] += v / 4;
+    const auto stone = numbers[mesh.bodies[cell]];
+    const double v = volume_of(mesh, cell);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t i = corner(mesh, cell, k);
+      stone_of_[i] = stone, share_[i] += v / 4;
+    }
     volume[static_cast<std::size_t>(stone)] += v;
     element_size_ += std::cbrt(6 * std::sqrt(2.0) * v);
     ++n_cells;

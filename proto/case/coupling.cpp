@@ -83,7 +83,7 @@ AuditLimits::Action read_action(const Section& section) {
                               : AuditLimits::Action::stop;
 }
 
-AuditLimits read_audit(const Section& section, Scheme scheme) {
+AuditLimits read_audit(const Section& section) {
   AuditLimits result;
   result.energy = section.number_or("energy", result.energy, Range::positive());
   result.momentum = section.number_or("momentum", result.momentum, Range::positive());
@@ -96,11 +96,6 @@ AuditLimits read_audit(const Section& section, Scheme scheme) {
     section.fail("action", "a run can be judged on its way only by scales of work and impulse",
                  "give work_scale_j and impulse_scale_n_s, say from the coupling.h5 of a run before");
   result.switch_to = scheme_of(section.choice_or("switch_to", "R2", scheme_names()));
-  if (result.action == AuditLimits::Action::switch_scheme &&
-      (uses_robin(scheme) != uses_robin(result.switch_to) || is_rigid(scheme) != is_rigid(result.switch_to)))
-    section.fail("switch_to",
-                 name_of(scheme) + " and " + name_of(result.switch_to) + " load the rail in different ways",
-                 "R1 can switch to R2; E0, E1 and E2 to each other and to implicit");
   return result;
 }
 
@@ -121,6 +116,12 @@ CheckpointTimes read_checkpoint(const Section& section) {
 
 }  // namespace
 
+std::string why_no_switch(const Coupling& coupling) {
+  const auto to = coupling.audit.switch_to;
+  if (coupling.audit.action != AuditLimits::Action::switch_scheme || can_switch(coupling.scheme, to)) return {};
+  return name_of(coupling.scheme) + " and " + name_of(to) + " load the rail in different ways";
+}
+
 Coupling read_coupling(const CaseFile& file) {
   const auto section = file.section("coupling");
   Coupling coupling;
@@ -139,7 +140,9 @@ Coupling read_coupling(const CaseFile& file) {
                               : Prolongation::linear;
   coupling.iteration = read_iteration(section.section("iteration"));
   coupling.one_way = read_one_way(section.section("one_way"));
-  coupling.audit = read_audit(section.section("audit"), coupling.scheme);
+  coupling.audit = read_audit(section.section("audit"));
+  if (const auto why = why_no_switch(coupling); !why.empty())
+    section.section("audit").fail("switch_to", why, "R1 can switch to R2; E0, E1 and E2 to each other and to implicit");
   coupling.advisor = read_advisor(section.section("advisor"));
   coupling.checkpoint = read_checkpoint(section.section("checkpoint"));
   section.finish();

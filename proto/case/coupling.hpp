@@ -96,6 +96,9 @@ inline bool plays_recorded_rail(const Coupling& coupling) {
   return coupling.scheme == Scheme::one_way && !coupling.one_way.history.empty();
 }
 
+/// Why the scheme of the coupling cannot go on as its audit's switch_to; "" when it can, or need not.
+std::string why_no_switch(const Coupling& coupling);
+
 /// Reads `[coupling]` and its sub-tables. The keys, their defaults and meanings: coupler/README.md "Keys".
 Coupling read_coupling(const CaseFile& file);
 

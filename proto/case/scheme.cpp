@@ -30,6 +30,11 @@ bool is_rigid(Scheme scheme) {
   return scheme == Scheme::rigid_per_step || scheme == Scheme::rigid_per_window;
 }
 
+bool can_switch(Scheme from, Scheme to) {
+  const auto alone = [](Scheme scheme) { return scheme == Scheme::one_way || is_rigid(scheme); };
+  return !alone(from) && !alone(to) && uses_robin(from) == uses_robin(to);
+}
+
 double expected_order(Scheme scheme) {
   const bool first =
       scheme == Scheme::parallel_staggered || scheme == Scheme::serial_staggered || scheme == Scheme::rigid_per_step;

@@ -32,6 +32,8 @@ bool uses_robin(Scheme scheme);
 bool needs_rollback(Scheme scheme);
 /// Whether the joint is rigid: no pad, a force that keeps the velocities equal.
 bool is_rigid(Scheme scheme);
+/// Whether a run may go on with `to` on its way: both sides are configured for either alike.
+bool can_switch(Scheme from, Scheme to);
 /// Order of convergence in the window length, with several sub-cycles a window.
 double expected_order(Scheme scheme);
 

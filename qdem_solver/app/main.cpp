@@ -54,9 +54,9 @@ int run(int argc, char** argv) {
   bed->callback([&] { qdem::bed_command(arguments.case_path, arguments.bed_path); });
 
   auto* bench = app.add_subcommand("bench", "measure the solver's rates beside those of the machine");
-  bench->add_option("--case", arguments.case_path, "case whose bed is stepped");
-  bench->add_option("--json", arguments.json_path, "file for the figures");
-  bench->add_flag("--cuda", arguments.on_cuda, "only the rates of the CUDA engine");
+  auto* bed_case = bench->add_option("--case", arguments.case_path, "case whose bed is stepped");
+  auto* json = bench->add_option("--json", arguments.json_path, "file for the figures");
+  bench->add_flag("--cuda", arguments.on_cuda, "only the rates of the CUDA engine")->excludes(bed_case)->excludes(json);
   bench->callback([&] {
     if (arguments.on_cuda) return qdem::device_bench_command();
     qdem::bench_command(arguments.case_path, arguments.json_path);

@@ -122,6 +122,7 @@ void add_mixture(InputHash& hash, const std::vector<bed::Ingredient>& mixture, c
   if (mixture.size() == 1 && mixture[0].material_id == 0) return;
   const auto materials = p.materials();
   for (const bed::Ingredient& part : mixture) {
+    hash.add(static_cast<double>(part.material_id));
     hash.add(part.share);
     add_material(hash, materials.at(part.material_id));
   }

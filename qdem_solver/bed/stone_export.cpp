@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "proto/error.hpp"
 #include "qdem_solver/bed/settings.hpp"
 #include "qdem_solver/bed/surface_file.hpp"
 
@@ -22,6 +23,9 @@ StoneExport export_stones(const proto::CaseFile& file, const std::string& folder
     Random random(settings.seed, roughness_stream + t);
     const auto stem = std::filesystem::path(stone.name).stem().string();
     result.files.push_back((std::filesystem::path(folder) / (stem + ".stl")).string());
+    if (std::filesystem::exists(result.files.back()))
+      throw proto::Error(proto::ExitCode::cannot_create, "the file exists already", result.files.back(),
+                         "give an empty folder");
     write_stl(result.files.back(), roughened(skin_of(stone), roughness, random), millimetres);
   }
   return result;

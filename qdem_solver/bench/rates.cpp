@@ -14,7 +14,7 @@
 namespace qdem::bench {
 namespace {
 
-constexpr int rounds = 200;
+constexpr int rounds = 200, searches = 5;
 constexpr double tiny_step = 1e-8;  // [s]
 
 class Clock {
@@ -75,7 +75,7 @@ ContactCost contact_cost(const Scene& scene) {
   cost.candidates_time_s = 1e9;
   State state = scene.state;
   ContactStage stage(scene.model);
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < searches; ++round) {
     state.contact.list_id = 0;
     const Clock clock;
     stage.update_candidates(state);

@@ -194,7 +194,7 @@ ContactPower ContactStage::compute(State& state, double dt) {
       EntryForce force = d.push(state, i, dt);
       if (force.live) {
         d.forces[i] = force;
-        power.dashpot += force.dissipated.dashpot, power.friction += force.dissipated.friction;
+        power += force.dissipated;
         live[n_live++] = i;
       } else {
         d.wake[i] = travel + force.gap;
@@ -206,7 +206,7 @@ ContactPower ContactStage::compute(State& state, double dt) {
   d.live.sort_by_body(contact.keys);
   if (d.spheres) d.spheres->end(state, d.live);
   ContactPower sum;
-  for (const ContactPower& power : d.powers) sum.dashpot += power.dashpot, sum.friction += power.friction;
+  for (const ContactPower& power : d.powers) sum += power;
   return sum;
 }
 

@@ -75,8 +75,7 @@ inline SphereForce push_spheres(const ContactLaw& law, double friction, const Sp
   const RollingCouple resistance = rolling_law.push(rolling, roll, dt);
   result.couple_a += resistance.couple, result.couple_b -= resistance.couple;
   result.roll = resistance.roll;
-  result.dissipated.dashpot += resistance.dissipated.dashpot;
-  result.dissipated.friction += resistance.dissipated.friction;
+  result.dissipated += resistance.dissipated;
   result.energy += 0.5 * rolling_law.stiffness(rolling.radius) * resistance.roll.squaredNorm();
   return result;
 }

@@ -91,7 +91,8 @@ class Engine {
 
   /// Opens the energy ledger at `state`, whose contacts are those of the last step or prepare(): from now on work and
   /// dissipation are counted in the steps, by trapezoids as the integrator's own. Forces of moving planes, of
-  /// pad_body_load and of artificial damping are not in it. A device counts no flows: its steps leave the ledger closed.
+  /// pad_body_load and of artificial damping are not in it. A device counts no flows: its steps leave the ledger
+  /// closed.
   void open_ledger(State& state) const;
   /// The ledger at `state`, the one of the last step.
   EnergyBalance balance(const State& state) const;
@@ -114,7 +115,7 @@ class Engine {
 
   /// Positions from which the pads measure the sleeper's displacement; set before the first driven advance. Laid out
   /// like state.x.
-  void set_pad_reference(std::vector<double> reference);
+  void set_pad_reference(const std::vector<double>& reference);
 
   const ContactStage& contacts() const;
 

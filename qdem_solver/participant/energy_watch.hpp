@@ -25,7 +25,6 @@ class EnergyWatch {
   /// Throws proto::Error (numerics) with step and time when the residual is above energy_limit.
   const EnergyBalance& look(const Engine& engine, const State& state);
 
-  const EnergyBalance& last() const { return last_; }
   double largest_residual() const { return largest_; }  ///< of all looks, relative [-]
   /// What a resumed run needs: the largest residual, and whether the warning was given.
   void exchange(proto::StateArchive& archive);

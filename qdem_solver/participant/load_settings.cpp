@@ -88,7 +88,7 @@ void read_patch(const Section& section, LoadSettings& settings) {
   } else {
     settings.region.half_lengths = vector_of(section.numbers("half_lengths_m", 3, Range::positive()));
   }
-  settings.direction = vector_of(section.numbers_or("direction", {0, 0, -1}));
+  if (section.has("direction")) settings.direction = vector_of(section.numbers("direction", 3));
   if (!(settings.direction.norm() > 0)) section.fail("direction", "it has no length");
 }
 

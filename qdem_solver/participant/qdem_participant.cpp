@@ -104,7 +104,7 @@ proto::FieldSet QdemParticipant::advance(const proto::Advance& request, proto::P
   auto sums = bed_->engine().advance(bed_->state(), dt, request.sub_cycles, {begin, end});
   if (marching_) {
     bed_->find_step(window_s_);
-    if (dt > bed_->step_bound()) ++windows_above_bound_;
+    above_bound_ = dt > bed_->step_bound();
   }
   return values(std::move(sums));
 }
@@ -132,6 +132,7 @@ RecordSettings QdemParticipant::record_settings() const {
 void QdemParticipant::commit(const proto::Commit& request) {
   committed_step_ = bed_->largest_step();
   if (!marching_) return;
+  if (above_bound_) ++windows_above_bound_;
   record_->look(static_cast<double>(request.window + 1) * window_s_);
 }
 
@@ -156,12 +157,12 @@ void QdemParticipant::exchange(proto::StateArchive& archive) {
   archive("committed_step", committed_step_);
   archive("windows_above_bound", windows_above_bound_);
   archive("rail_foot", rail_foot_);
-  energy_.exchange(archive);
 }
 
 std::uint64_t QdemParticipant::save(const proto::Save& request) {
   proto::StateWriter archive;
   exchange(archive);
+  energy_.exchange(archive);
   record_->synchronise();
   record_->exchange(archive);
   return archive.write(request.path);
@@ -170,6 +171,7 @@ std::uint64_t QdemParticipant::save(const proto::Save& request) {
 void QdemParticipant::restore(const proto::Restore& request) {
   proto::StateReader archive(request.path, request.hash);
   exchange(archive);
+  energy_.exchange(archive);
   marching_ = true;
   record_ = std::make_unique<BedRecord>(*bed_, energy_, record_settings(), archive);
 }

@@ -45,7 +45,7 @@ class QdemParticipant : public proto::Participant {
   void begin_window(const proto::Advance& request);
   void check_sensor_interval() const;
   RecordSettings record_settings() const;
-  /// Everything but the record.
+  /// The state of the march: what the end's hash is of.
   void exchange(proto::StateArchive& archive);
 
   proto::CaseFile file_;
@@ -58,6 +58,7 @@ class QdemParticipant : public proto::Participant {
   State before_window_;
   double window_s_ = 0.0, output_interval_ = 0.0;
   double committed_step_ = 0.0;           ///< largest stable one from the last commit [s]
+  bool above_bound_ = false;              ///< the step of the window just advanced
   std::int64_t windows_above_bound_ = 0;  ///< whose contacts turned out stiffer than foreseen, in spite of the safety
   std::vector<double> rail_foot_;         ///< at the end of the last window
   bool relaxing_ = false, marching_ = false;

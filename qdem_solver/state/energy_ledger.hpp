@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "proto/span.hpp"
+
 namespace qdem {
 
 /// Energies that a state holds [J]. `gravity` counts from the origin.
@@ -14,6 +16,10 @@ struct StoredEnergy {
 struct ContactPower {
   double dashpot = 0.0;   ///< normal and tangential, and springs that a dashpot keeps from pushing back
   double friction = 0.0;  ///< of the sliders
+  HOUSE_HOST_DEVICE ContactPower& operator+=(const ContactPower& other) {
+    dashpot += other.dashpot, friction += other.friction;
+    return *this;
+  }
 };
 
 /// Flows since the ledger was opened. Part of State, so that a snapshot holds it.

@@ -173,6 +173,13 @@ TEST(Coupling, bad_values_are_refused) {
               "impulse_scale_n_s = 1\n"),
       "R1 and E2 load the rail in different ways - case.toml:5:13: coupling.audit.switch_to - R1 can switch to R2; "
       "E0, E1 and E2 to each other and to implicit");
+  for (const auto& [from, to] : {std::pair("one_way", "R2"), std::pair("R1", "one_way"), std::pair("GC", "PH")})
+    EXPECT_EQ(
+        refusal(std::string("duration_s = 1\nscheme = \"") + from + "\"\n[coupling.audit]\naction = \"switch\"\n" +
+                "switch_to = \"" + to + "\"\nwork_scale_j = 1\nimpulse_scale_n_s = 1\n"),
+        std::string(from) + " and " + to +
+            " load the rail in different ways - case.toml:6:13: coupling.audit.switch_to - R1 can switch to R2; "
+            "E0, E1 and E2 to each other and to implicit");
   EXPECT_EQ(refusal("duration_s = 1\n[coupling.iteration]\nmax_iteration = 5\n"),
             "unknown key - case.toml:4:1: coupling.iteration.max_iteration - did you mean 'max_iterations'?");
   EXPECT_EQ(refusal("duration_s = 1\n[coupling.initialise]\ntolerence = 5\n"),

@@ -328,6 +328,7 @@ TEST(QdemCase, RefusesWhatItCannotUse) {
   expect_refused(patch + "radius_m = 1.0\n" + weight, "impact is missing");
   expect_refused(patch + "radius_m = 1.0\ndrop_height_m = 1.0\nimpact_velocity_m_per_s = 1.0\n" + weight, "twice");
   expect_refused(patch + "radius_m = 1.0\ndirection = [0, 0, 0]\n" + weight, "no length");
+  expect_refused(patch + "radius_m = 1.0\ndirection = [0, 1]\n" + weight, "direction");
   expect_refused(patch + "radius_m = 1.0\nkind = \"displacement_table\"\ntime_s = [0]\ndisplacement_m = [0]\n",
                  "stiffness_n_per_m");
   expect_refused(foot + foot, "another load");

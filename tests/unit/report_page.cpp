@@ -12,6 +12,7 @@
 #include "coupler/page/run_facts.hpp"
 #include "coupler/page/run_tables.hpp"
 #include "coupler/page/scene.hpp"
+#include "coupler/study/mesh.hpp"
 #include "proto/error.hpp"
 #include "proto/result/field_series.hpp"
 #include "tests/support/box_mesh.hpp"
@@ -20,6 +21,7 @@
 
 namespace {
 
+using coupler::study::Mesh;
 using namespace coupler::page;
 using nlohmann::json;
 using tests::near_abs;

@@ -32,14 +32,14 @@ TEST(Advisor, CriticalWindowsAreThoseOfTheSpectralRadius) {
   coupler::StabilityScan scan;
   scan.n_windows = 4000, scan.growth = 1e-6;
   for (const auto& row : rows) {
-    const double found = coupler::critical_window(row.scheme, seat(row.stiffness), scan);
+    const double found = coupler::critical_window(row.scheme, {}, seat(row.stiffness), scan);
     std::printf("%s k=%.3g: critical window %.2e s (%.2e)\n", proto::name_of(row.scheme).c_str(), row.stiffness, found,
                 row.window_s);
     EXPECT_TRUE(tests::near_rel(found, row.window_s, 0.1)) << proto::name_of(row.scheme) << " " << row.stiffness;
   }
   // Robin with carry on damped pads: no growth up to 5e-4 s.
   for (const double stiffness : {6.5e7, 2.25e8})
-    EXPECT_GT(coupler::critical_window(Scheme::robin_explicit, seat(stiffness)), 5e-4);
+    EXPECT_GT(coupler::critical_window(Scheme::robin_explicit, {}, seat(stiffness)), 5e-4);
 }
 
 TEST(Advisor, ThePlainIterationDivergesWhereItWasSeenTo) {

@@ -15,6 +15,15 @@ export function redrawCharts() {
   for (const chart of drawn) chart.redraw(false);
 }
 
+/** Ends the charts inside `place`. */
+export function forgetCharts(place) {
+  for (const chart of [...drawn]) {
+    if (!place.contains(chart.root)) continue;
+    drawn.delete(chart);
+    chart.destroy();
+  }
+}
+
 /** The moment of the 3-D view as a line over a chart whose abscissa is time, `factor` times seconds. */
 function timeMarker(factor) {
   const line = h('div', { class: 'now' });

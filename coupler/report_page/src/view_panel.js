@@ -1,4 +1,5 @@
 // The 3-D view with its controls: time, colour, exaggeration, cut, picking.
+import { forgetCharts } from './charts.js';
 import { clock, wanted } from './clock.js';
 import { colours, css, mapNames } from './colour_map.js';
 import { button, field, h, saveCanvas } from './dom.js';
@@ -125,6 +126,7 @@ export class ViewPanel {
   }
 
   play() {
+    clearTimeout(this.timer);
     this.playing = !this.playing;
     this.player.textContent = this.playing ? '❚❚ Stop' : '▶ Play';
     if (this.playing && this.state.frame === this.n - 1) this.setFrame(0);
@@ -132,16 +134,17 @@ export class ViewPanel {
       if (!this.playing) return;
       if (this.state.frame < this.n - 1) {
         this.setFrame(this.state.frame + 1);
-        setTimeout(() => requestAnimationFrame(tick), 60);
+        this.timer = setTimeout(tick, 60);
       } else {
         this.play();
       }
     };
-    requestAnimationFrame(tick);
+    tick();
   }
 
   /** `value` as in the list of bodies, or ''. */
   choose(value) {
+    forgetCharts(this.history);
     this.number.value = value;
     if (value === '') {
       this.scene.select(null);

@@ -38,9 +38,9 @@ const ContactStage& Engine::contacts() const {
   return data_->contact;
 }
 
-void Engine::set_pad_reference(std::vector<double> reference) {
-  data_->pad_reference = std::move(reference);
-  if (data_->device) data_->device->set_pad_reference(data_->pad_values(data_->pad_reference));
+void Engine::set_pad_reference(const std::vector<double>& reference) {
+  data_->pad_reference = data_->pad_values(reference);
+  if (data_->device) data_->device->set_pad_reference(data_->pad_reference);
 }
 
 void Engine::Data::drift(State& state, double dt) {
@@ -205,8 +205,7 @@ std::vector<double> Engine::Data::pad_values(const std::vector<double>& field) c
 
 std::vector<double> Engine::Data::pad_displacement(const State& state) const {
   std::vector<double> x = pad_values(state.x);
-  const std::vector<double> reference = pad_values(pad_reference);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= reference[i];
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= pad_reference[i];
   return x;
 }
 

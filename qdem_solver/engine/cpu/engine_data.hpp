@@ -58,8 +58,8 @@ struct Engine::Data {
   ContactStage contact;
   PadOperator pads;
   PatchLoads loads;
-  std::vector<double> pad_reference;
-  std::unique_ptr<Stepper> device;  ///< makes the steps in place of all the above; nullptr: the CPU does
+  std::vector<double> pad_reference;  ///< pad values of the positions that count as undisplaced [m]
+  std::unique_ptr<Stepper> device;    ///< makes the steps in place of all the above; nullptr: the CPU does
 };
 
 }  // namespace qdem
