@@ -74,7 +74,7 @@ int main() {
 }
 CODE
 IFS=';' read -r -a archives <<<"$libraries"
-# cuda.o stands before the archives, so that it serves what no_cuda.cpp would.
-g++ -std=c++17 "${@/#/-isystem}" -I"$root" main.cpp cuda.o "${archives[@]}" -L"$(dirname "$nvcc")/../lib64" \
-  -lcudart_static -ldl -lrt -lpthread -lgomp -lxxhash -o linked
+# nvcc links, because it alone knows where its runtime lies. cuda.o stands before the archives, so that it serves what
+# no_cuda.cpp would.
+"$nvcc" -std=c++17 -arch=sm_90 "${@/#/-isystem=}" -I"$root" main.cpp cuda.o "${archives[@]}" -lgomp -lxxhash -o linked
 ./linked
