@@ -40,6 +40,9 @@ add_dependencies(python_participant_test coupler oscillator_participant spring_r
 house_test(coupler_schemes_run_test integration SOURCES integration/coupler_schemes_run.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 60)
 add_dependencies(coupler_schemes_run_test coupler relaxing_participant oscillator_participant)
+house_test(coupler_watch_test integration SOURCES integration/coupler_watch.cpp
+           LIBRARIES proto::case nlohmann_json::nlohmann_json TIMEOUT 120)
+add_dependencies(coupler_watch_test coupler oscillator_participant)
 house_test(coupler_supervisor_test integration SOURCES integration/coupler_supervisor.cpp
            LIBRARIES coupler::supervise nlohmann_json::nlohmann_json TIMEOUT 60)
 add_dependencies(coupler_supervisor_test coupler oscillator_participant)

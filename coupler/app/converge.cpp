@@ -2,10 +2,9 @@
 #include <fmt/format.h>
 
 #include "coupler/app/case_input.hpp"
+#include "coupler/app/drawing.hpp"
 #include "coupler/app/options.hpp"
 #include "coupler/app/refined_case.hpp"
-#include "coupler/launch/children.hpp"
-#include "coupler/launch/program_path.hpp"
 #include "coupler/record/run_folder.hpp"
 #include "coupler/report/convergence.hpp"
 #include "coupler/report/seat_histories.hpp"
@@ -57,22 +56,6 @@ class Ladder {
   const RunFolder& folder_;
 };
 
-/// Draws `script` if gnuplot is there; says what to do if it is not.
-void draw(const std::string& script, const std::string& svg) {
-  try {
-    Children children(own_path());
-    children.start({"gnuplot", {find_program("gnuplot", "PATH"), script}, {}, script + ".log"});
-    while (!children.exit_of("gnuplot")) children.wait(0.1);
-    const auto exit = *children.exit_of("gnuplot");
-    if (exit.code == 0 && exit.signal == 0)
-      fmt::print("plot in {}\n", svg);
-    else
-      fmt::print("gnuplot {}: see {}.log\n", exit.text(), script);
-  } catch (const proto::Error&) {
-    fmt::print("no plot: gnuplot is not installed; its commands are in {}\n", script);
-  }
-}
-
 }  // namespace
 
 int converge_case(const RunOptions& options, int n_levels) {
@@ -99,7 +82,7 @@ int converge_case(const RunOptions& options, int n_levels) {
   proto::write_text_file(csv, order_csv(orders, by));
   proto::write_text_file(script, order_plot(orders, by, expected, csv, svg));
   fmt::print("distances between the levels in {}\n", csv);
-  draw(script, svg);
+  draw("gnuplot", {script}, script, svg);
   for (const auto& order : orders) {
     if (!order.has_order() || order.last() >= expected - allowed_shortfall) continue;
     throw proto::Error(proto::ExitCode::numerics,

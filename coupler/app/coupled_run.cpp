@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "coupler/app/scheme_needs.hpp"
 #include "coupler/launch/program_path.hpp"
 #include "coupler/mapping/interface_check.hpp"
-#include "coupler/report/progress.hpp"
+#include "coupler/report/status_view.hpp"
 #include "coupler/scheme/rest_watch.hpp"
 #include "proto/clock.hpp"
 #include "proto/result/provenance.hpp"
@@ -43,12 +44,14 @@ std::vector<std::string> names_of(const CaseInput& input) {
 
 }  // namespace
 
-CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary)
+CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary,
+                       StatusFile& status)
     : input_(input),
       names_(names_of(input)),
       folder_(folder),
       log_(log),
       summary_(summary),
+      status_(status),
       endpoint_(socket_folder_.path(), largest_message(input.seats), {names_, input.file.hash(), 1.0}),
       children_(own_path()),
       supervisor_(children_, endpoint_, patience_of(input.coupling)),
@@ -64,8 +67,15 @@ CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::
     recorded_.emplace(input.coupling.one_way.history, input.seats, duration);
     rail_ = &*recorded_;
   }
-  supervisor_.on_long_set_up([](const std::string& text) { fmt::print(stderr, "{}\n", text); });
+  supervisor_.on_long_set_up([this](const std::string& text) {
+    fmt::print(stderr, "{}\n", text);
+    status_.now().note = text;
+    update_wall_time();
+    status_.write();
+  });
   for (const auto& seat : input.seats) summary_.seats.push_back({seat.name, 0.0, 0.0, 0.0});
+  status_.now().phase = "starting";
+  status_.write();
 }
 
 CoupledRun::~CoupledRun() {
@@ -112,6 +122,7 @@ void CoupledRun::set_up() {
   }
   configure();
   summary_.wall.start_up = seconds_since(begin_);
+  status_.now().note.clear();
   waited_in_start_up_s_ = supervisor_.waited_s();
   log_.info("configured: largest step {} s, {} s while initialising", configured_step_s_.value_or(0.0),
             initialise_step_s_.value_or(0.0));
@@ -141,6 +152,7 @@ void CoupledRun::initialise() {
   if (limits.max_windows == 0) return;
   RestWatch watch(limits);
   Progress progress("relaxing", limits.max_windows, limits.window_s);
+  begin_phase("relaxing", limits.max_windows);
   auto coupling = input_.coupling;
   coupling.sub_cycle_factor = 1;  // only the state of rest counts
   const auto scheme = make_scheme(coupling.scheme, coupling,
@@ -155,9 +167,9 @@ void CoupledRun::initialise() {
     at_rest = watch.add({forces, record.explicit_residual, record.implicit_residual});
     summary_.initialise_windows = n + 1;
     summary_.rest = watch.figures();
-    progress.update(
-        n + 1, fmt::format("seat force {:.1f} N, changing by {:.1e}, residuals {:.1e} (qdem) {:.1e} (fem)",
-                           forces.front(), summary_.rest.change, record.explicit_residual, record.implicit_residual));
+    show(progress, {n + 1, limits.window_s, forces},
+         fmt::format("changing by {:.1e}, residuals {:.1e} (qdem) {:.1e} (fem)", summary_.rest.change,
+                     record.explicit_residual, record.implicit_residual));
   }
   if (!at_rest)
     throw proto::Error(proto::ExitCode::numerics,
@@ -217,6 +229,31 @@ void CoupledRun::add_window(const WindowRecord& record) {
   update_totals(record.window + 1);
 }
 
+void CoupledRun::begin_phase(const char* name, std::int64_t n_windows) {
+  auto& now = status_.now();
+  now.phase = name, now.n_windows_wanted = n_windows, now.n_windows = 0;
+  status_.write();
+}
+
+void CoupledRun::show(Progress& progress, const WindowsDone& done, const std::string& note) {
+  update_wall_time();
+  auto& now = status_.now();
+  const auto pace = progress.pace(done.n);
+  now.n_windows = done.n, now.simulated_s = static_cast<double>(done.n) * done.window_s;
+  now.windows_per_s = pace.windows_per_s, now.left_s = pace.left_s;
+  now.energy_defect_relative = summary_.energy_defect_relative;
+  now.momentum_defect_relative = summary_.momentum_defect_relative;
+  now.wall = summary_.wall;
+  now.seats.clear();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < done.forces.size(); ++i) {
+    now.seats.push_back({input_.seats[i].name, done.forces[i]});
+    if (std::abs(done.forces[i]) > std::abs(largest)) largest = done.forces[i];
+  }
+  status_.renew();
+  progress.update(done.n, fmt::format("seat force {:.2f} kN  {}  {}", largest / 1e3, note, wait_text(now.wall)));
+}
+
 void CoupledRun::update_totals(std::int64_t n_windows) {
   summary_.n_windows = n_windows;
   summary_.interface_hash = hash_.value();
@@ -235,7 +272,9 @@ MarchEnd CoupledRun::march(std::optional<Clock::time_point> deadline) {
   const auto n_windows = static_cast<std::int64_t>(input_.coupling.n_windows);
   log_.info("marching through windows {} to {}", next_window_, n_windows - 1);
   const auto march_begin = last_save_ = Clock::now();
-  Progress progress("marching", n_windows, input_.coupling.window_s);
+  const double window_s = input_.coupling.window_s;
+  Progress progress("marching", n_windows, window_s, next_window_);
+  begin_phase("marching", n_windows);
   for (auto n = next_window_; n < n_windows; n = next_window_) {
     if (const auto end = early_end(deadline); end != MarchEnd::complete) {
       if (can_save_ && n > 0) save(n - 1);
@@ -253,8 +292,9 @@ MarchEnd CoupledRun::march(std::optional<Clock::time_point> deadline) {
     next_window_ = n + 1;
     if (const auto next = judge_.judge(supervisor_.stage(), next_window_ == n_windows)) switch_scheme(*next);
     if (save_is_due(n)) save(n);
-    progress.update(n + 1, fmt::format("defects {:.1e} (energy) {:.1e} (momentum)", summary_.energy_defect_relative,
-                                       summary_.momentum_defect_relative));
+    show(progress, {n + 1, window_s, seat_forces(record, input_.seats, window_s)},
+         fmt::format("defects {:.1e} (energy) {:.1e} (momentum)", summary_.energy_defect_relative,
+                     summary_.momentum_defect_relative));
   }
   if (can_save_ && saves_at_all()) save(n_windows - 1);  // a longer run can go on from here
   judge_.observe();

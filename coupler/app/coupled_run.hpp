@@ -17,8 +17,10 @@
 #include "coupler/record/interface_hash.hpp"
 #include "coupler/record/recorded_rail.hpp"
 #include "coupler/record/run_folder.hpp"
+#include "coupler/record/run_status.hpp"
 #include "coupler/record/socket_folder.hpp"
 #include "coupler/record/summary.hpp"
+#include "coupler/report/progress.hpp"
 #include "coupler/scheme/coupling_scheme.hpp"
 #include "coupler/supervise/remote_side.hpp"
 #include "coupler/supervise/supervisor.hpp"
@@ -27,11 +29,12 @@ namespace coupler {
 
 enum class MarchEnd { complete, stopped_by_user, out_of_time };
 
-/// The steps of a run, to be called in the order in which they are declared. `summary` is filled as the run goes and
-/// is valid at any time, also after a throw. Every step throws proto::Error or Interrupted.
+/// The steps of a run, to be called in the order in which they are declared. `summary` and `status` are filled as the
+/// run goes and are valid at any time, also after a throw. Every step throws proto::Error or Interrupted.
 class CoupledRun {
  public:
-  CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary);
+  CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary,
+             StatusFile& status);
   /// Ends whatever still runs.
   ~CoupledRun();
 
@@ -73,6 +76,15 @@ class CoupledRun {
   bool save_is_due(std::int64_t window) const;
   void exchange(proto::StateArchive& archive);
   void add_window(const WindowRecord& record);
+  void begin_phase(const char* name, std::int64_t n_windows);
+  /// How far a phase is.
+  struct WindowsDone {
+    std::int64_t n;
+    double window_s;
+    std::vector<double> forces;  ///< of every seat in the last one [N]
+  };
+  /// Shows it on the console and in the status file.
+  void show(Progress& progress, const WindowsDone& done, const std::string& note);
   void switch_scheme(proto::Scheme to);
   void account(const WindowRecord& record);
   void update_totals(std::int64_t n_windows);
@@ -84,6 +96,7 @@ class CoupledRun {
   const RunFolder& folder_;
   spdlog::logger& log_;
   Summary& summary_;
+  StatusFile& status_;
   SocketFolder socket_folder_;
   proto::CouplerEndpoint endpoint_;
   Children children_;

@@ -3,6 +3,9 @@
 namespace coupler {
 
 void add_kit_commands(CLI::App& app, Action& chosen) {
+  add_init_command(app, chosen);
+  add_graph_command(app, chosen);
+  add_watch_command(app, chosen);
   add_conformance_command(app, chosen);
   add_replay_command(app, chosen);
   add_profile_command(app, chosen);

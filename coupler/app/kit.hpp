@@ -1,4 +1,4 @@
-// The subcommands for those who bring a solver: conformance, replay, profile.
+// The subcommands beside a run: a case before it, its state during it, its record after it, a solver alone.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,7 +14,10 @@ void add_kit_commands(CLI::App& app, Action& chosen);
 
 // Each of them, in a source file of its name.
 void add_conformance_command(CLI::App& app, Action& chosen);
+void add_graph_command(CLI::App& app, Action& chosen);
+void add_init_command(CLI::App& app, Action& chosen);
 void add_profile_command(CLI::App& app, Action& chosen);
 void add_replay_command(CLI::App& app, Action& chosen);
+void add_watch_command(CLI::App& app, Action& chosen);
 
 }  // namespace coupler

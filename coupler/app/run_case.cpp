@@ -95,8 +95,8 @@ bool may_pass(const ParticipantError& error) {
 }
 
 int run_guarded(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary,
-                Orders& orders) {
-  CoupledRun run(input, folder, log, summary);
+                StatusFile& status, Orders& orders) {
+  CoupledRun run(input, folder, log, summary, status);
   const auto give_up = [&](const Failure& failure) {
     summary.failure = failure;
     run.abandon(failure.exit_code, failure.message);
@@ -120,11 +120,11 @@ int run_guarded(const CaseInput& input, const RunFolder& folder, spdlog::logger&
 /// Goes on from the newest checkpoint, or from the beginning, after a participant was lost: at most `n_restarts` times
 /// without a new checkpoint in between, after 1, 2, 4, ... s.
 int run_with_restarts(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary,
-                      Orders orders) {
+                      StatusFile& status, Orders orders) {
   const Summary blank = summary;
   for (;;) {
     try {
-      return run_guarded(input, folder, log, summary, orders);
+      return run_guarded(input, folder, log, summary, status, orders);
     } catch (const ParticipantError& error) {
       if (!may_pass(error) || orders.n_failures >= orders.n_restarts) throw;
       const double pause_s = std::min(longest_pause_s, std::ldexp(1.0, orders.n_failures++));
@@ -156,9 +156,18 @@ int run_in(const CaseInput& input, const RunFolder& folder, const Orders& orders
                     proto::source_description(), input.file.path(), input.file.hash(),
                     proto::name_of(input.coupling.scheme));
   auto summary = blank_summary(input);
-  const auto write_summary = [&] { proto::write_text_file(folder.file("summary.json"), summary_text(summary)); };
+  StatusFile status(folder.file("status.json"));
+  status.now().case_name = summary.case_name, status.now().scheme = summary.scheme;
+  const auto write_summary = [&] {
+    auto& end = status.now();
+    end.status = summary.status, end.exit_code = summary.status == "ok" ? 0 : summary.failure.exit_code;
+    end.note = summary.status == "ok" ? "" : summary.failure.message;
+    end.wall = summary.wall;
+    status.write();
+    proto::write_text_file(folder.file("summary.json"), summary_text(summary));
+  };
   try {
-    const int code = run_with_restarts(input, folder, log.logger(), summary, orders);
+    const int code = run_with_restarts(input, folder, log.logger(), summary, status, orders);
     write_summary();
     log.logger().info("{}: {} windows", summary.status, summary.n_windows);
     if (code != 0) {

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <thread>
 
 #include "proto/error.hpp"
 
@@ -53,11 +55,23 @@ RunFolder RunFolder::reopen(const std::string& path) {
   return folder;
 }
 
+bool RunFolder::in_use(const std::string& path) {
+  const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return false;
+  const bool taken = flock(folder, LOCK_SH | LOCK_NB) != 0;
+  close(folder);
+  return taken;
+}
+
 void RunFolder::lock() {
   // The lock is on the folder itself: it leaves no file behind and ends with the process, however that ends.
   lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0) fail(std::string("cannot open the output folder (") + strerror(errno) + ")", path_);
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) fail("another run is writing to this folder", path_, "give another --out");
+  // More than once: in_use() holds it for an instant.
+  for (int tries = 0; flock(lock_, LOCK_EX | LOCK_NB) != 0; ++tries) {
+    if (tries == 5) fail("another run is writing to this folder", path_, "give another --out");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
 }
 
 RunFolder::~RunFolder() {

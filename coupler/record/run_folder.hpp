@@ -15,6 +15,8 @@ class RunFolder {
   /// The folder of an earlier run, to go on in it. Throws proto::Error: missing_input (there is none), cannot_create
   /// (in use by another run).
   static RunFolder reopen(const std::string& path);
+  /// Whether a run holds the folder now.
+  static bool in_use(const std::string& path);
   RunFolder(RunFolder&& other) noexcept : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;

@@ -37,9 +37,7 @@ bool write_all(int descriptor, const std::string& text) {
   return true;
 }
 
-}  // namespace
-
-void write_text_file(const std::string& path, const std::string& text) {
+void put(const std::string& path, const std::string& text, bool synced) {
   const std::string temporary = path + ".tmp";
   const auto fail = [&](ExitCode code, const std::string& action) {
     const std::string reason = std::strerror(errno);
@@ -48,10 +46,19 @@ void write_text_file(const std::string& path, const std::string& text) {
   };
   Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
   if (file.number() < 0) fail(ExitCode::cannot_create, "create");
-  if (!write_all(file.number(), text) || ::fsync(file.number()) != 0 || !file.close()) {
-    fail(ExitCode::io_error, "write");
-  }
+  const bool written = write_all(file.number(), text) && (!synced || ::fsync(file.number()) == 0);
+  if (!written || !file.close()) fail(ExitCode::io_error, "write");
   if (::rename(temporary.c_str(), path.c_str()) != 0) fail(ExitCode::io_error, "rename");
+}
+
+}  // namespace
+
+void replace_text_file(const std::string& path, const std::string& text) {
+  put(path, text, false);
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  put(path, text, true);
   // Without this the rename itself may be lost with the machine's power.
   const auto folder = std::filesystem::absolute(path).parent_path();
   const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

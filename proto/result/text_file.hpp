@@ -10,4 +10,7 @@ namespace proto {
 /// was.
 void write_text_file(const std::string& path, const std::string& text);
 
+/// The same without waiting for the disk: whole for every reader, but may be lost with the machine's power.
+void replace_text_file(const std::string& path, const std::string& text);
+
 }  // namespace proto

@@ -11,7 +11,7 @@ house_packages=(
   libthrust-dev libzmq3-dev cppzmq-dev libflatbuffers-dev flatbuffers-compiler
   libhdf5-dev libhdf5-openmpi-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libuv1-dev nlohmann-json3-dev
-  libgtest-dev gnuplot-nox python3-zmq python3-flatbuffers python3-xxhash
+  libgtest-dev gnuplot-nox graphviz python3-zmq python3-flatbuffers python3-xxhash
 )
 # npm makes the page of the reports; where it comes from elsewhere, Debian's is not asked for.
 command -v npm >/dev/null || house_packages+=(nodejs npm)
