@@ -58,14 +58,14 @@ add_dependencies(analysis_run_test coupler)
 
 house_test(report_page_test unit SOURCES unit/report_page.cpp LIBRARIES coupler::page)
 find_program(NODE node)
-house_test(report_browser_test integration SOURCES integration/report_browser.cpp
+house_test(run_pictures_test integration SOURCES integration/run_pictures.cpp
            LIBRARIES nlohmann_json::nlohmann_json TIMEOUT 300)
-target_compile_definitions(report_browser_test
+target_compile_definitions(run_pictures_test
                            PRIVATE HOUSE_NODE="${NODE}"
                                    HOUSE_REPORT_MODULES="${PROJECT_BINARY_DIR}/coupler/report_page/node_modules")
-add_dependencies(report_browser_test coupler qdem_solver fem_solver)
+add_dependencies(run_pictures_test coupler qdem_solver fem_solver)
 if(TARGET report_page)
-  add_dependencies(report_browser_test report_page)
+  add_dependencies(run_pictures_test report_page)
 endif()
 
 # The whole chain; the first test builds the bed of the quick case.

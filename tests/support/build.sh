@@ -12,6 +12,7 @@ house_packages=(
   libhdf5-dev libhdf5-openmpi-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libuv1-dev nlohmann-json3-dev
   libgtest-dev gnuplot-nox graphviz python3-zmq python3-flatbuffers python3-xxhash
+  python3-h5py python3-matplotlib
 )
 # npm makes the page of the reports; where it comes from elsewhere, Debian's is not asked for.
 command -v npm >/dev/null || house_packages+=(nodejs npm)

@@ -1,4 +1,5 @@
-// coupler report on a coupled run of the real solvers: the command, and its page in headless Chromium.
+// What people look at after a coupled run of the real solvers: the page of coupler report in headless Chromium, the
+// plot in Python, the picture by ParaView.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -55,6 +56,12 @@ SmallRun& small_run() {
   return run;
 }
 
+std::string pictures_folder() {
+  const std::string folder = tests::bin_folder + "/../test_pictures";
+  fs::create_directories(folder);
+  return folder;
+}
+
 TEST(ReportCommand, SaysWhatIsWrong) {
   const tests::TemporaryFolder bare;
   fs::copy_file(tests::bin_folder + "/coupler", bare.file("coupler"));
@@ -95,8 +102,7 @@ TEST(ReportPage, IsSeenAndUsedInABrowser) {
   const std::string program = tests::bin_folder + "/coupler report ";
   ASSERT_EQ(shell(program + run.out()).first, 0);
   ASSERT_EQ(shell(program + run.out() + " " + run.folder.file("second")).first, 0);
-  const std::string pictures = tests::bin_folder + "/../test_pictures";
-  fs::create_directories(pictures);
+  const auto pictures = pictures_folder();
   const auto [code, text] =
       shell("timeout 170 " HOUSE_NODE " " HOUSE_SOURCE_DIR "/tests/integration/report_in_browser.mjs " +
             std::string(HOUSE_REPORT_MODULES " \"$(command -v chromium)\" ") + run.out() + "/report.html " + run.out() +
@@ -106,6 +112,32 @@ TEST(ReportPage, IsSeenAndUsedInABrowser) {
     EXPECT_GT(fs::file_size(pictures + "/" + name), 10000u);
   }
   std::printf("%s", text.c_str());
+}
+
+TEST(PlotInPython, IsDrawn) {
+  const std::string python = "/usr/bin/python3 ";
+  if (shell(python + "-c 'import h5py, matplotlib'").first != 0) GTEST_SKIP() << "NOT RUN: no h5py or matplotlib";
+  auto& run = small_run();
+  ASSERT_EQ(run.log.first, 0) << run.log.second;
+  const auto picture = pictures_folder() + "/plot.png";
+  const auto [code, text] = shell(python + HOUSE_SOURCE_DIR "/cases/plot_run.py " + run.out() + " " + picture);
+  ASSERT_EQ(code, 0) << text;
+  EXPECT_GT(fs::file_size(picture), 10000u);
+  EXPECT_NE(shell(python + HOUSE_SOURCE_DIR "/cases/plot_run.py " + run.folder.path()).first, 0) << "no run is there";
+}
+
+TEST(PictureByParaView, ShowsTheDeformedTrack) {
+  if (shell("command -v pvbatch && command -v xvfb-run").first != 0)
+    GTEST_SKIP() << "NOT RUN: paraview or xvfb is not installed";
+  auto& run = small_run();
+  ASSERT_EQ(run.log.first, 0) << run.log.second;
+  const auto picture = pictures_folder() + "/paraview.png";
+  fs::remove(picture);
+  const auto [code, text] =
+      shell("timeout 170 xvfb-run -a pvbatch " HOUSE_SOURCE_DIR "/cases/view_run.py " + run.out() + " " + picture);
+  ASSERT_EQ(code, 0) << text;
+  EXPECT_TRUE(contains(text, "largest displacement")) << text;
+  EXPECT_GT(fs::file_size(picture), 10000u);
 }
 
 }  // namespace
