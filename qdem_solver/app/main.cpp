@@ -13,6 +13,7 @@
 #include "proto/error.hpp"
 #include "proto/session/participant.hpp"
 #include "qdem_solver/app/commands.hpp"
+#include "qdem_solver/app/forecast.hpp"
 #include "qdem_solver/participant/qdem_participant.hpp"
 
 namespace {
@@ -27,6 +28,7 @@ void check(const Arguments& arguments) {
   const auto file = proto::CaseFile::load(arguments.case_path);
   qdem::check_command(file);
   qdem::print_figures(file);
+  qdem::print_forecast(file);
 }
 
 void participate(const Arguments& arguments) {
@@ -72,7 +74,7 @@ int run(int argc, char** argv) {
   stones->callback([&] { qdem::stones_command(arguments.case_path, arguments.stones, arguments.roughness); });
 
   auto* checker =
-      app.add_subcommand("check", "validate the case without running it; what its sleeper weighs and costs");
+      app.add_subcommand("check", "validate the case without running it; what it will take of memory and time");
   checker->add_option("--case", arguments.case_path, "case file")->required();
   checker->callback([&] { check(arguments); });
 

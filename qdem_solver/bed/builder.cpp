@@ -8,7 +8,7 @@
 
 #include "proto/clock.hpp"
 #include "proto/error.hpp"
-#include "qdem_solver/bed/polyhedron.hpp"
+#include "qdem_solver/bed/drawn_stones.hpp"
 #include "qdem_solver/bed/sleeper_shape.hpp"
 #include "qdem_solver/state/rigid_fit.hpp"
 
@@ -20,25 +20,6 @@ using Eigen::Vector3d;
 constexpr int sleeper = 0;                                     // body number
 constexpr double poured_speed = 0.06;                          // [m/s], below which a pouring is over
 constexpr double layer_pressure = 4e3, crib_pressure = 1.5e3;  // [Pa], where tamping ends
-/// Volume of a template rounded by r: Steiner's formula, V + A r + M r^2 + 4 pi/3 r^3 with M half the sum of edge
-/// length times exterior angle, which is negative at hollow edges.
-double rounded_volume(const Template& shape, double scale, double r) {
-  double area = 0.0, curvature = 0.0;
-  std::vector<Vector3d> normals;
-  for (const Triangle& t : shape.triangles) {
-    const Vector3d& a = shape.nodes[t.nodes[0]];
-    const Vector3d n = (shape.nodes[t.nodes[1]] - a).cross(shape.nodes[t.nodes[2]] - a);
-    area += n.norm() / 2;
-    normals.push_back(n.normalized());
-  }
-  for (const Edge& e : shape.edges) {
-    const double angle = std::acos(std::clamp(normals[e.triangles[0]].dot(normals[e.triangles[1]]), -1.0, 1.0));
-    const double sign = is_hollow(shape, e) ? -1.0 : 1.0;
-    curvature += sign * (shape.nodes[e.nodes[1]] - shape.nodes[e.nodes[0]]).norm() * angle / 2;
-  }
-  return shape.volume() * std::pow(scale, 3) + area * scale * scale * r + curvature * scale * r * r +
-         4 * M_PI / 3 * std::pow(r, 3);
-}
 
 }  // namespace
 
@@ -63,30 +44,22 @@ Bed Builder::build() {
 }
 
 double Builder::envelope_volume(int template_id, double size) const {
-  const double r = physics_.contact.rounding;
-  return rounded_volume(model_.templates[template_id], size - 2 * r, r);
+  return bed::envelope_volume(model_.templates[template_id], size, physics_.contact.rounding);
 }
 
 void Builder::make_stones() {
-  StoneTemplates stones = make_stone_templates(settings_.shapes);
+  const Settings& s = settings_;
+  DrawnStones stones = draw_bed(s, physics_.contact.rounding, random_);
   report_.notes = std::move(stones.notes);
-  if (!settings_.shapes.files.empty()) {
+  if (!s.shapes.files.empty()) {
     for (const std::string& note : report_.notes) spdlog::info("bed: {}", note);
   }
   model_.templates = std::move(stones.templates);
-  const Settings& s = settings_;
-  const auto volume_of = [this](int template_id, double size) { return envelope_volume(template_id, size); };
-  const int n_templates = s.shapes.n_templates;
-  const double solid = 1 - s.target_porosity;
-  const double layer = s.wall() * s.spacing * s.depth;
-  const double crib = (s.wall() * s.spacing - s.sleeper.bottom_area()) * s.crib_height;
-  layer_ = draw_stones(s.gradation, n_templates, volume_of, solid * layer, random_);
-  if (crib > 0) crib_ = draw_stones(s.gradation, n_templates, volume_of, solid * crib, random_);
-  mix_materials(s.mixture, volume_of, layer_), mix_materials(s.mixture, volume_of, crib_);
+  layer_ = std::move(stones.layer), crib_ = std::move(stones.crib);
 
   model_.templates.push_back(sleeper_mesh("sleeper", s.sleeper, s.sleeper_cells));
   Body body;
-  body.kind = BodyKind::sleeper, body.name = "sleeper", body.template_id = n_templates, body.material_id = 1;
+  body.kind = BodyKind::sleeper, body.name = "sleeper", body.template_id = s.shapes.n_templates, body.material_id = 1;
   model_.bodies.push_back(body);
   model_.pad_body = sleeper;
   model_.materials = physics_.materials();

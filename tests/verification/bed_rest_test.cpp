@@ -5,7 +5,9 @@
 #include <fstream>
 
 #include "qdem_solver/bed/bed.hpp"
+#include "qdem_solver/bed/forecast.hpp"
 #include "qdem_solver/engine/engine.hpp"
+#include "qdem_solver/engine/stability.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace {
@@ -70,6 +72,20 @@ TEST(Bed, IsAtRestInsideItsBoundariesAndCached) {
   EXPECT_LE(r.unbalanced_force_ratio, 0.02);
   EXPECT_LE(r.kinetic_energy, 0.01);
   EXPECT_LE(r.largest_penetration, 0.5e-3);
+
+  // Some of the drawn stones roll off as the formwork goes, none comes; contacts shorten the step.
+  const qdem::BedForecast forecast = qdem::forecast_bed(file, rock());
+  EXPECT_GE(forecast.stones, r.stones);
+  EXPECT_LE(static_cast<double>(forecast.stones), 1.4 * static_cast<double>(r.stones));
+  EXPECT_GE(forecast.elements, r.elements);
+  qdem::Engine at_rest(built.model);
+  qdem::State first = built.state;
+  at_rest.prepare(first);
+  const double bound = qdem::StepBound(built.model).at(first, at_rest.contacts(), 0.0);
+  std::printf("forecast: %lld stones, step bound %.3g s, with contacts %.3g s\n",
+              static_cast<long long>(forecast.stones), forecast.stone_step_bound, bound);
+  EXPECT_GE(forecast.stone_step_bound, bound);
+  EXPECT_LE(forecast.stone_step_bound, 1.5 * bound);
 
   const qdem::Model& model = built.model;
   for (int b = 1; b < static_cast<int>(model.bodies.size()); ++b) {
