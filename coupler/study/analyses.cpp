@@ -9,7 +9,7 @@ Findings analyse(const std::string& folder, const Options& options) {
   const Run run(folder);
   Findings findings;
   for (const auto add : {add_load, add_histories, add_transfer, add_attenuation, add_modes, add_displacement_field,
-                         add_pressure, add_force_chains, add_energies}) {
+                         add_pressure, add_settlement, add_force_chains, add_energies}) {
     add(run, options, findings);
   }
   return findings;

@@ -30,6 +30,8 @@ void add_modes(const Run& run, const Options& options, Findings& findings);
 void add_displacement_field(const Run& run, const Options& options, Findings& findings);
 /// Pressure under the sleeper, and the largest stress in a stone over its mean.
 void add_pressure(const Run& run, const Options& options, Findings& findings);
+/// Settlement of the sleeper from cycle to cycle; nothing where the load has no two cycles.
+void add_settlement(const Run& run, const Options& options, Findings& findings);
 void add_force_chains(const Run& run, const Options& options, Findings& findings);
 /// Every column of qdem.h5 that is an energy, and what the rail gave.
 void add_energies(const Run& run, const Options& options, Findings& findings);

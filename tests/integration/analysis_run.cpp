@@ -197,6 +197,48 @@ TEST(AnalysisOfARunThatWasStopped, GoesOnWithOneSample) {
   EXPECT_TRUE(notes(findings, "modes of bottom: 1 samples"));
 }
 
+/// Sensors on a bottom of one cell that sinks by 1 mm when loaded, and by 0.1 mm for good in every cycle.
+void write_cycles(const std::string& path, int n_cycles) {
+  constexpr int samples = 50;  // of a cycle
+  proto::Attributes attributes = {{"sole.kind", std::string("bottom")}, {"cells.kind", std::string("pressure")}};
+  for (const char* name : {"sole", "cells"}) {
+    for (const char* side : {".x_min_m", ".y_min_m", ".z_m"}) attributes.emplace_back(std::string(name) + side, 0.0);
+    for (const char* side : {".x_max_m", ".y_max_m", ".cell_length_m", ".cell_width_m"}) {
+      attributes.emplace_back(std::string(name) + side, 1.0);
+    }
+  }
+  auto file = proto::TimeSeriesFile::create(path,
+                                            {{"time", "s", "", {}},
+                                             {"sole/displacement", "m", "", {1, 1, 3}},
+                                             {"sole/velocity", "m/s", "", {1, 1, 3}},
+                                             {"cells/force", "N", "", {}},
+                                             {"cells/pressure", "Pa", "", {1, 1}}},
+                                            attributes);
+  for (int i = 0; i <= n_cycles * samples; ++i) {
+    const double cycles = static_cast<double>(i) / samples, load = 0.5 - 0.5 * std::cos(2 * M_PI * cycles);
+    const std::vector<double> place = {0, 0, -1e-3 * load - 1e-4 * cycles}, still = {0, 0, 0};
+    file.put("time", 1e-2 * i), file.put("sole/displacement", place), file.put("sole/velocity", still);
+    file.put("cells/force", 1e4 * load), file.put("cells/pressure", std::vector<double>{1e4 * load});
+    file.end_row();
+  }
+  file.close();
+}
+
+TEST(Settlement, GoesFromCycleToCycle) {
+  const tests::TemporaryFolder folder;
+  write_cycles(folder.file("sensors.h5"), 8);
+  const auto findings = analyse(folder.path(), {});
+  EXPECT_EQ(column(findings, "settlement", "cycle").size(), 8u);
+  EXPECT_TRUE(near_rel(column(findings, "settlement", "unloaded")[2], 3e-4, 1e-9));
+  EXPECT_TRUE(near_rel(column(findings, "settlement", "loaded")[2], 1e-3 + 2.5e-4, 1e-9));
+  const std::string group = "settlement under repeated load";
+  EXPECT_TRUE(near_rel(figure(findings, group, "mean of a cycle in the second half"), 1e-4, 1e-9));
+  EXPECT_TRUE(near_rel(figure(findings, group, "from the first cycle to the last"), 7e-4, 1e-9));
+  EXPECT_TRUE(near_rel(figure(findings, group, "unloading stiffness"), 1e4 / (1e-3 - 5e-5), 1e-9));
+  write_cycles(folder.file("sensors.h5"), 1);  // one blow is no repeated load
+  for (const auto& table : analyse(folder.path(), {}).tables) EXPECT_NE(table.name, "settlement");
+}
+
 TEST(EnergiesByName, SharesOfWhatDissipated) {
   const tests::TemporaryFolder folder;
   proto::FieldSeriesOptions options;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "coupler/analysis/cycles.hpp"
 #include "coupler/analysis/force_chains.hpp"
 #include "coupler/analysis/layer.hpp"
 #include "coupler/analysis/modes.hpp"
@@ -27,6 +28,26 @@ std::vector<double> decay(const std::vector<Mode>& modes, std::size_t n, double 
     }
   }
   return x;
+}
+
+TEST(LoadCycles, AreCountedThroughRipples) {
+  constexpr int samples = 200;  // of a cycle
+  std::vector<double> load;
+  for (int i = 0; i < 5 * samples; ++i) {
+    const double t = 2 * M_PI * i / samples;
+    load.push_back(16.0 - 14.0 * std::cos(t) + 1.5 * std::sin(17 * t));  // begins unloaded
+  }
+  const auto cycles = load_cycles(load);
+  ASSERT_EQ(cycles.size(), 5u);
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    EXPECT_NEAR(static_cast<double>(cycles[k].peak), (static_cast<double>(k) + 0.5) * samples, 8);
+    EXPECT_GT(cycles[k].trough, cycles[k].peak);
+    EXPECT_LT(load[cycles[k].trough], 4.0);
+  }
+  load.resize(4 * samples + samples / 2);  // the last cycle stays up
+  EXPECT_EQ(load_cycles(load).size(), 4u);
+  EXPECT_TRUE(load_cycles(std::vector<double>(10, 3.0)).empty());
+  EXPECT_TRUE(load_cycles(std::vector<double>{}).empty());
 }
 
 TEST(EigensystemRealisation, FindsCloseModesBelowTheFrequencyOfInterest) {

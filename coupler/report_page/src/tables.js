@@ -7,6 +7,7 @@ import { largest, words } from './units.js';
 const sections = [
   ['Track and seats', /^(history_seat_|wheel)/],
   ['Motion of sleeper and stones', /^history_/],
+  ['Settlement under repeated load', /^settlement/],
   ['Pressure under the sleeper', /^pressure_/],
   ['Response of the layer, T(f,z)', /^(transfer|attenuation|modes_|displacement_)/],
   ['Contacts and energies', /^(contact|energies)/],
