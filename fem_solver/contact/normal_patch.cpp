@@ -27,6 +27,7 @@ NormalPatch::NormalPatch(const PatchGrid& grid, const PairElasticity& pair)
 
 NormalSolution NormalPatch::at_approach(const PatchField& gap, double approach, const PatchField& guess,
                                         const char* where) const {
+  if (!std::isfinite(approach)) throw proto::Error(proto::ExitCode::numerics, "the approach is not a number", where);
   NormalSolution solution{grid_.zeros(), approach};
   const PatchField overlap = approach - gap;
   // Pressure only pushes the surfaces apart, so that what does not overlap undeformed will never touch.

@@ -46,11 +46,12 @@ TangentialSolution RollingPatch::step(const PatchField& bound, const PatchVector
   const PatchBox box = bounding_box(bound > 0 || before.norm() > 0);
   PatchVectors rigid = PatchVectors::zeros(grid);
   ahead_->add(box, {-before.x, -before.y}, rigid);
-  // The particle comes from x + travel: its mean place in the step is half-way.
+  // Tractions sit at x, slips are those of the way from x + travel to x: together a patch a quarter step ahead, from
+  // whose centre the spin's lever counts. So the spin's force is of second order in the step.
   for (int j = 0; j < grid.n_y; ++j)
     for (int i = 0; i < grid.n_x; ++i) {
       rigid.x(i, j) += travel * (creepage.longitudinal - creepage.spin * grid.y(j));
-      rigid.y(i, j) += travel * (creepage.lateral + creepage.spin * (grid.x(i) + travel / 2));
+      rigid.y(i, j) += travel * (creepage.lateral + creepage.spin * (grid.x(i) + travel / 4));
     }
   return patch_.solve(bound, rigid, before, step_tolerance, where);
 }

@@ -1,6 +1,7 @@
 // The contact patch without friction: Hertz's ellipses (physics.md 3.1), Cattaneo's ball (K1 of 3.2), orders.
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "fem_solver/contact/contact_gap.hpp"
 #include "fem_solver/contact/normal_patch.hpp"
@@ -71,21 +72,88 @@ TEST(K1, cattaneo_ball_within_5_percent) {
   expect_near(solved({20.0, 20.0, {}, 0.0}, cattaneo, cattaneo_force, cattaneo_ball, 10), cattaneo_ball, 0.05);
 }
 
-// The approach of a ball against Hertz's closed form. The grid's steps along the patch's rim make the error of first
-// order there, but the rim carries little: the force is better than that.
-TEST(Order, of_the_approach) {
-  const fem::ElasticBody body{210e9, 0.3};
+// The approach of a ball against Hertz's closed form.
+TEST(Order, of_the_approach_is_two) {
   const double force = 80e3, radius = 0.25, modulus = 210e9 / (2 * (1 - 0.09));
   const double a = std::cbrt(3 * force * radius / (4 * modulus));
   const Figures exact{a, a, 3 * force / (2 * M_PI * a * a), a * a / radius};
   std::vector<double> steps, errors;
   for (const int n : {6, 9, 13, 19, 28}) {
-    const Figures found = solved({2 / radius / 2, 1 / radius, {}, 0.0}, body, force, exact, n);
+    const Figures found = solved({1 / radius, 1 / radius, {}, 0.0}, {210e9, 0.3}, force, exact, n);
     steps.push_back(1.0 / n);
     errors.push_back(std::abs(found.approach / exact.approach - 1));
-    std::printf("  error %.3e\n", errors.back());
   }
   std::printf("order %.2f\n", tests::fitted_order(steps, errors));
+  EXPECT_TRUE(tests::converges_with_order(steps, errors, 2.0, 0.3));
+}
+
+// The stiffness that Newton uses is the derivative of the force: 1.5 F/delta where Hertz holds.
+TEST(Tangent, is_that_of_hertz_and_of_a_difference) {
+  const fem::PatchGrid grid = grid_for({6.433e-3, 5.061e-3, 0, 0}, 12);
+  const fem::NormalPatch patch(grid, fem::pair_elasticity({210e9, 0.3}, {210e9, 0.3}));
+  const auto gap = fem::contact_gap({1 / .43, 1 / .30, {}, 0.0}, grid).height;
+  const auto at = [&](double approach) { return patch.at_approach(gap, approach, grid.zeros(), "test"); };
+  const auto found = at(90.8e-6);
+  EXPECT_TRUE(near_rel(found.tangent, 1.321e9, 0.03));
+  // A difference so small that no element changes its side.
+  EXPECT_TRUE(near_rel((at(90.8e-6 + 1e-12).force - at(90.8e-6 - 1e-12).force) / 2e-12, found.tangent, 1e-5));
+}
+
+// Two parabolas given as tables of points touch as their curvatures do.
+TEST(Profiles, parabolas_are_hertz) {
+  std::vector<double> y, wheel, rail;
+  for (int k = -30; k <= 30; ++k) {
+    y.push_back(1e-3 * k);
+    wheel.push_back(y.back() * y.back() / 2);              // 1 m, hollow outwards
+    rail.push_back(-y.back() * y.back() / 2 * (7.0 / 3));  // together 0.3 m
+  }
+  const fem::PatchGrid grid = grid_for({6.433e-3, 5.061e-3, 0, 0}, 12);
+  const fem::ContactGeometry tables{1 / .43, 0.0, {{y, wheel}, {y, rail}}, 0.002};
+  const auto gap = fem::contact_gap(tables, grid);
+  // The shift of 2 mm moves the point of contact to y/R_wheel + ... = 0: (y - s)/1 + 7/3 y = 0.
+  EXPECT_TRUE(tests::near_abs(gap.centre_y, 0.002 * 0.3, 1e-6));
+  const fem::NormalPatch patch(grid, fem::pair_elasticity({210e9, 0.3}, {210e9, 0.3}));
+  const auto found = patch.at_force(gap.height, 80e3, {grid.zeros(), 50e-6}, "test");
+  EXPECT_TRUE(near_rel(found.approach, 90.8e-6, 0.01));
+}
+
+TEST(Profiles, too_short_or_too_wide_are_refused) {
+  const fem::SurfaceProfile short_one({-1e-3, 0.0, 1e-3}, {0.0, 0.0, 0.0});
+  const fem::PatchGrid grid{10, 10, 1e-3, 1e-3};
+  EXPECT_THROW(fem::contact_gap({2.0, 0.0, {short_one, short_one}, 0.0}, grid), proto::Error);
+  EXPECT_THROW(fem::SurfaceProfile({-35.0, 0.0, 35.0}, {0.0, 0.0, 0.0}), proto::Error);
+}
+
+TEST(Refused, a_patch_at_the_edge_and_unlike_materials) {
+  const fem::PatchGrid grid{10, 10, 0.5e-3, 0.5e-3};
+  const fem::NormalPatch patch(grid, fem::pair_elasticity({210e9, 0.3}, {210e9, 0.3}));
+  const auto gap = fem::contact_gap({1 / .43, 1 / .30, {}, 0.0}, grid).height;
+  try {
+    patch.at_force(gap, 80e3, {grid.zeros(), 50e-6}, "window 7");
+    FAIL() << "no error";
+  } catch (const proto::Error& error) {
+    EXPECT_EQ(error.code(), proto::ExitCode::numerics);
+    EXPECT_NE(std::string(error.what()).find("edge of its grid"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("window 7"), std::string::npos);
+  }
+  EXPECT_THROW(fem::pair_elasticity({210e9, 0.3}, {5e6, 0.3}), proto::Error);
+  EXPECT_NO_THROW(fem::pair_elasticity({210e9, 0.3}, {200e9, 0.28}));
+}
+
+// What is not a number ends with the residuals.
+TEST(Refused, no_convergence_tells_the_residuals) {
+  const fem::PatchGrid grid{10, 10, 0.5e-3, 0.5e-3};
+  const fem::NormalPatch patch(grid, fem::pair_elasticity({210e9, 0.3}, {210e9, 0.3}));
+  fem::PatchField gap = fem::contact_gap({1 / .43, 1 / .30, {}, 0.0}, grid).height;
+  gap(5, 5) = -std::numeric_limits<double>::infinity();
+  try {
+    patch.at_approach(gap, 1e-5, grid.zeros(), "window 7");
+    FAIL() << "no error";
+  } catch (const proto::Error& error) {
+    EXPECT_EQ(error.code(), proto::ExitCode::numerics);
+    EXPECT_NE(std::string(error.what()).find("over the overlap ("), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(patch.at_approach(gap, std::nan(""), grid.zeros(), "window 7"), proto::Error);
 }
 
 }  // namespace
