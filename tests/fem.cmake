@@ -16,3 +16,5 @@ house_test(fem_beam_test verification SOURCES verification/fem_beam.cpp LIBRARIE
 house_test(fem_solid_and_beam verification SOURCES verification/fem_solid_and_beam.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json)
 add_dependencies(fem_solid_and_beam coupler oscillator_participant fem_solver fem_beam)
+house_test(fem_contact_tool integration SOURCES integration/fem_contact_tool.cpp LIBRARIES proto::result_serial)
+add_dependencies(fem_contact_tool fem_solver)

@@ -13,7 +13,7 @@ struct FemProgram {
   RailBuilder build;
 };
 
-/// Carries out `participant`, `check`, `static` or `run`; the exit code. Errors become one line on stderr.
+/// Carries out `participant`, `check`, `static`, `run` or `contact`; the exit code. Errors become one line on stderr.
 int fem_program(int argc, char** argv, const FemProgram& program);
 
 }  // namespace fem

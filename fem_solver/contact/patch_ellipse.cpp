@@ -5,6 +5,19 @@
 
 namespace fem {
 
+PatchEllipse hertz_ellipse(double wheel_radius, double crown_radius, const ElasticBody& wheel, const ElasticBody& rail,
+                           double force) {
+  const HertzState s = Hertz(wheel_radius, crown_radius, wheel, rail).at_force(force);
+  const bool long_along = wheel_radius >= crown_radius;
+  return {long_along ? s.semi_axis_long : s.semi_axis_short, long_along ? s.semi_axis_short : s.semi_axis_long,
+          s.peak_pressure};
+}
+
+PatchGrid grid_around(const PatchEllipse& ellipse, int elements, double margin) {
+  const int side = 2 * static_cast<int>(std::ceil(margin * elements));
+  return {side, side, ellipse.semi_axis_x / elements, ellipse.semi_axis_y / elements};
+}
+
 PatchEllipse fit_ellipse(const PatchGrid& grid, const PatchField& pressure) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
