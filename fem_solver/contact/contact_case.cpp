@@ -34,6 +34,11 @@ double read_friction(const proto::Section& section) {
   return section.number("friction", Range::between(0.0, 1.0));
 }
 
+Creepage read_creepage(const proto::Section& section) {
+  return {section.number_or("longitudinal_creepage", 0.0, Range::between(-1.0, 1.0)),
+          section.number_or("lateral_creepage", 0.0, Range::between(-1.0, 1.0)), section.number_or("spin_per_m", 0.0)};
+}
+
 ContactCase read_contact(const proto::CaseFile& file) {
   const proto::Section section = file.section("contact");
   ContactCase c;
@@ -55,9 +60,7 @@ ContactCase read_contact(const proto::CaseFile& file) {
     c.shift_x = section.number_or("longitudinal_shift_m", 0.0);
     c.shift_y = section.number_or("lateral_shift_m", 0.0);
   } else {
-    c.creepage.longitudinal = section.number_or("longitudinal_creepage", 0.0, Range::between(-1.0, 1.0));
-    c.creepage.lateral = section.number_or("lateral_creepage", 0.0, Range::between(-1.0, 1.0));
-    c.creepage.spin = section.number_or("spin_per_m", 0.0);
+    c.creepage = read_creepage(section);
     c.curve_factors = section.numbers_or("curve_factors", {});
   }
   section.finish();

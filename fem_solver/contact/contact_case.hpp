@@ -35,6 +35,9 @@ ContactGeometry read_geometry(const proto::Section& section, double wheel_radius
 /// A friction coefficient, 0 to 1: anything else is refused with the place of the key.
 double read_friction(const proto::Section& section);
 
+/// longitudinal_creepage, lateral_creepage, spin_per_m; 0 without.
+Creepage read_creepage(const proto::Section& section);
+
 /// Reads `[contact]`: normal_force_n, friction, wheel_radius_m, rail_crown_radius_m (flat without), wheel_profile,
 /// rail_profile, wheel_shift_m, young_pa, poisson (of the rail), wheel_young_pa, wheel_poisson, motion ("rolling":
 /// longitudinal_creepage, lateral_creepage, spin_per_m, curve_factors; "shift": longitudinal_shift_m, lateral_shift_m)

@@ -90,6 +90,9 @@ WheelSettings read_wheel(const proto::CaseFile& file, const Material& rail) {
   w.wheel.young = section.number_or("young_pa", rail.young, Range::positive());
   w.wheel.poisson = section.number_or("poisson", rail.poisson, Range::between(0.0, 0.49));
   w.irregularity = read_irregularity(section.section("irregularity"));
+  if (section.choice_or("contact", "hertz", {"hertz", "patch"}) == "patch")
+    w.patch = read_patch(section.section("patch"), w.radius, w.rail_crown_radius);
+  w.longest_contact_loss = section.number_or("longest_contact_loss_s", w.longest_contact_loss, Range::positive());
   section.finish();
   return w;
 }

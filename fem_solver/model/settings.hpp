@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fem_solver/contact/hertz.hpp"
+#include "fem_solver/contact/patch_settings.hpp"
 #include "fem_solver/model/irregularity.hpp"
 #include "fem_solver/model/material.hpp"
 #include "proto/case/case_file.hpp"
@@ -48,6 +51,8 @@ struct WheelSettings {
   double rail_crown_radius = 0.3;  ///< [m]
   ElasticBody wheel, rail;
   Irregularity irregularity;
+  std::optional<PatchSettings> patch;  ///< the contact resolved; none: Hertz's spring
+  double longest_contact_loss = std::numeric_limits<double>::infinity();  ///< a longer one ends the run [s]
 };
 
 /// Reads `[fem]`: profile, n_bays, element_length_m, young_pa, poisson, density_kg_per_m3, loss_factor,
@@ -57,7 +62,8 @@ struct WheelSettings {
 FemSettings read_fem(const proto::CaseFile& file, const std::vector<proto::RailSeat>& seats);
 
 /// Reads `[wheel]`: speed_m_per_s, start_m, static_load_n, unsprung_mass_kg, radius_m, rail_crown_radius_m, young_pa,
-/// poisson and [wheel.irregularity]: kind, depth_m, length_m, position_m | amplitude_m, wavelength_m, begin_m | file.
+/// poisson, contact ("hertz" or "patch" with [wheel.patch]), longest_contact_loss_s and [wheel.irregularity]: kind,
+/// depth_m, length_m, position_m | amplitude_m, wavelength_m, begin_m | file.
 WheelSettings read_wheel(const proto::CaseFile& file, const Material& rail);
 
 }  // namespace fem

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fem_solver/contact/hertz.hpp"
+#include "fem_solver/contact/patch_contact.hpp"
 #include "fem_solver/model/settings.hpp"
 #include "fem_solver/rail/rail_model.hpp"
 #include "fem_solver/time/interface_solve.hpp"
@@ -37,10 +38,12 @@ struct RunState {
   double wheel_velocity = 0.0;      ///< [m/s]
   std::int64_t windows = 0;         ///< since time 0
   InterfaceSolution last;           ///< guess for the next window
+  PatchState patch;                 ///< of a resolved contact
+  std::int64_t windows_open = 0;    ///< for how many windows the wheel has been off the rail
   double wheel_position = 0.0;      ///< x of the contact of the last window's middle, or the start [m]
 };
 
-/// An unsprung mass under a static load runs along the rail on a Hertz spring. Mass and rail share one window equation:
+/// An unsprung mass under a static load runs along the rail on its contact. Mass and rail share one window equation:
 /// average acceleration, contact evaluated at mid-window position and mean approach; it may open and does not stick.
 class WheelTrack {
  public:
@@ -63,7 +66,7 @@ class WheelTrack {
   /// Damping off, velocities to zero, clock to zero; displacements and forces stay.
   void start();
 
-  /// One window of the march.
+  /// One window of the march. Throws proto::Error (numerics) when the contact is open for longer than the case allows.
   WindowOutput march(const WindowInput& input);
 
   const RunState& state() const { return state_; }
@@ -71,6 +74,8 @@ class WheelTrack {
   double contact_force() const { return state_.last.contact; }
   double position_at(double window) const { return wheel_.start + wheel_.speed * step_ * window; }
   const Hertz& hertz() const { return hertz_; }
+  /// The resolved contact, if the case has one.
+  const PatchContact* patch() const { return dynamic_cast<const PatchContact*>(contact_.get()); }
   const Statics& statics() const { return statics_; }
   const RunningBand& band() const { return band_; }
   /// RailModel::indentation() [m/N].
@@ -97,6 +102,7 @@ class WheelTrack {
   void add_wheel(InterfaceProblem& problem, const BandWeights& place, double position, const Eigen::VectorXd& response,
                  const Eigen::VectorXd& free) const;
   void set_rest(const Eigen::VectorXd& displacement);
+  void watch_contact_loss(const std::string& where);
   double static_residual(const TrackState& before, const Eigen::VectorXd& force_used) const;
 
   const TrackSystem& system_;
@@ -105,6 +111,7 @@ class WheelTrack {
   std::vector<proto::PadLaw> laws_;
   const RunningBand& band_;
   Hertz hertz_;
+  std::unique_ptr<WheelContact> contact_;
   Statics statics_;
   double indentation_;
   Stepper march_;
