@@ -5,6 +5,7 @@ house_test(fem_interface_operator unit SOURCES unit/fem_interface_operator.cpp
            LIBRARIES fem::solid fem::beam_rail)
 house_test(fem_patch_normal verification SOURCES verification/fem_patch_normal.cpp LIBRARIES fem::patch)
 house_test(fem_patch_rolling verification SOURCES verification/fem_patch_rolling.cpp LIBRARIES fem::patch)
+house_test(fem_patch_wheel verification SOURCES verification/fem_patch_wheel.cpp LIBRARIES fem::beam_rail)
 house_test(fem_elasticity verification SOURCES verification/fem_elasticity.cpp LIBRARIES fem::solid)
 house_test(fem_static_beam verification SOURCES verification/fem_static_beam.cpp LIBRARIES fem::solid)
 house_test(fem_wheel verification SOURCES verification/fem_wheel.cpp LIBRARIES fem::solid)
