@@ -19,3 +19,5 @@ house_test(fem_solid_and_beam verification SOURCES verification/fem_solid_and_be
 add_dependencies(fem_solid_and_beam coupler oscillator_participant fem_solver fem_beam)
 house_test(fem_contact_tool integration SOURCES integration/fem_contact_tool.cpp LIBRARIES proto::result_serial)
 add_dependencies(fem_contact_tool fem_solver)
+house_test(fem_patch_record integration SOURCES integration/fem_patch_record.cpp
+           LIBRARIES fem::participant_serial fem::beam_rail)
