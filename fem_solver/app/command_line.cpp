@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "fem_solver/app/alone.hpp"
-#include "fem_solver/app/contact_tool.hpp"
 #include "fem_solver/participant/fem_participant.hpp"
 #include "proto/error.hpp"
 
@@ -37,7 +36,7 @@ int run(int argc, char** argv, const FemProgram& program) {
   }
 
   if (contact->parsed()) {
-    run_contact(path, program.name, out);
+    run_contact(path, program.name, program.blocks, out);
     return 0;
   }
   auto input = read_fem_case(path);

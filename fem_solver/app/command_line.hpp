@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "fem_solver/app/contact_tool.hpp"
 #include "fem_solver/rail/rail_model.hpp"
 
 namespace fem {
@@ -11,6 +12,7 @@ namespace fem {
 struct FemProgram {
   std::string name, description;
   RailBuilder build;
+  ContactAnalyser blocks = nullptr;  ///< of the tool `contact`, where the program has solid elements
 };
 
 /// Carries out `participant`, `check`, `static`, `run` or `contact`; the exit code. Errors become one line on stderr.

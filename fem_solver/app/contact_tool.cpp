@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "fem_solver/contact/contact_analysis.hpp"
+#include "proto/error.hpp"
 #include "proto/result/array_file.hpp"
 #include "proto/result/provenance.hpp"
 
@@ -15,8 +16,8 @@ std::vector<double> flat(const PatchField& field) {
 
 void print_patch(const ContactCase& input, const ContactResult& result) {
   const PatchEllipse& e = result.ellipse;
-  std::printf("grid %d x %d elements of %.4f x %.4f mm; normal force %.3f kN\n", input.grid.n_x, input.grid.n_y,
-              input.grid.dx * 1e3, input.grid.dy * 1e3, input.normal_force * 1e-3);
+  std::printf("grid %d x %d elements of %.4f x %.4f mm; normal force %.3f kN\n", result.grid.n_x, result.grid.n_y,
+              result.grid.dx * 1e3, result.grid.dy * 1e3, input.normal_force * 1e-3);
   std::printf("patch %.3f mm2, semi-axes %.4f mm along and %.4f mm across, p0 %.2f MPa, approach %.3f um\n",
               result.area * 1e6, e.semi_axis_x * 1e3, e.semi_axis_y * 1e3, e.peak_pressure * 1e-6,
               result.normal.approach * 1e6);
@@ -33,9 +34,9 @@ void print_friction(const ContactCase& input, const ContactResult& result) {
   std::printf("on the wheel: %.2f N along, %.2f N across, %.3f N m about the normal; mu N %.2f N; %.1f %% sticks\n",
               f.longitudinal, f.lateral, f.moment, full, result.point.stick_share * 100);
   std::printf("stick o, slip x; rolling to the right:\n");
-  for (int j = input.grid.n_y - 1; j >= 0; --j) {
-    for (int i = 0; i < input.grid.n_x; ++i)
-      std::putchar(".ox"[static_cast<int>(result.zones[static_cast<std::size_t>(j * input.grid.n_x + i)])]);
+  for (int j = result.grid.n_y - 1; j >= 0; --j) {
+    for (int i = 0; i < result.grid.n_x; ++i)
+      std::putchar(".ox"[static_cast<int>(result.zones[static_cast<std::size_t>(j * result.grid.n_x + i)])]);
     std::putchar('\n');
   }
   if (result.curve.empty()) return;
@@ -47,7 +48,7 @@ void print_friction(const ContactCase& input, const ContactResult& result) {
 
 // Elements in the order of the fields: along the rail first.
 std::vector<proto::NamedArray> element_arrays(const ContactCase& input, const ContactResult& result) {
-  const PatchGrid& grid = input.grid;
+  const PatchGrid& grid = result.grid;
   PatchField x = grid.zeros(), y = grid.zeros();
   for (int j = 0; j < grid.n_y; ++j)
     for (int i = 0; i < grid.n_x; ++i) x(i, j) = grid.x(i), y(i, j) = grid.y(j);
@@ -90,8 +91,8 @@ void write_result(const ContactCase& input, const ContactResult& result, const p
   const auto scalar = [&](const char* name, const char* unit, const char* what, double value) {
     arrays.push_back({name, unit, what, {value}});
   };
-  scalar("grid/n_x", "1", "elements along the rail, the faster index", input.grid.n_x);
-  scalar("grid/n_y", "1", "elements across the rail", input.grid.n_y);
+  scalar("grid/n_x", "1", "elements along the rail, the faster index", result.grid.n_x);
+  scalar("grid/n_y", "1", "elements across the rail", result.grid.n_y);
   scalar("normal/approach", "m", "", result.normal.approach);
   scalar("normal/force", "N", "", result.normal.force);
   scalar("normal/stiffness", "N/m", "d force/d approach", result.normal.tangent);
@@ -106,10 +107,14 @@ void write_result(const ContactCase& input, const ContactResult& result, const p
 
 }  // namespace
 
-void run_contact(const std::string& path, const std::string& program, const std::string& out) {
+void run_contact(const std::string& path, const std::string& program, const ContactAnalyser& blocks,
+                 const std::string& out) {
   const auto file = proto::CaseFile::load(path);
   const ContactCase input = read_contact(file);
-  const ContactResult result = analyse_contact(input);
+  if (input.bodies == ContactBodies::blocks && !blocks)
+    throw proto::Error(proto::ExitCode::config, program + " has no solid elements", "contact.bodies",
+                       "take fem_solver, or bodies = \"half_space\"");
+  const ContactResult result = input.bodies == ContactBodies::blocks ? blocks(input) : analyse_contact(input);
   print_patch(input, result);
   print_friction(input, result);
   const std::string target = out + "/contact.h5";

@@ -16,6 +16,7 @@ struct CurvePoint {
 };
 
 struct ContactResult {
+  PatchGrid grid;
   ContactGap gap;
   NormalSolution normal;
   PatchEllipse ellipse;         ///< fitted to the pressure
@@ -29,7 +30,10 @@ struct ContactResult {
 /// Pressure from any small approach on: the one that the grid's larger side would have under the force.
 NormalSolution first_guess(const PatchGrid& grid, const PairElasticity& pair, double force);
 
-/// Throws proto::Error: bad_data, numerics.
+/// Fills in what follows from pressure and friction: ellipse, area, zones, point.
+void evaluate(const ContactCase& input, ContactResult& result);
+
+/// On half-spaces. Throws proto::Error: bad_data, numerics.
 ContactResult analyse_contact(const ContactCase& input);
 
 }  // namespace fem

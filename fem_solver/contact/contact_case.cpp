@@ -55,6 +55,7 @@ ContactCase read_contact(const proto::CaseFile& file) {
     section.fail("rail_crown_radius_m", "a crown radius beside profiles says the same thing twice", "take one of them");
   if (crown > 0) c.hertz = hertz_ellipse(wheel, crown, c.wheel, c.rail, c.normal_force);
   c.grid = read_grid(section.section("grid"), c.hertz);
+  if (section.choice_or("bodies", "half_space", {"half_space", "blocks"}) == "blocks") c.bodies = ContactBodies::blocks;
   if (section.choice_or("motion", "rolling", {"rolling", "shift"}) == "shift") {
     c.motion = ContactMotion::shift;
     c.shift_x = section.number_or("longitudinal_shift_m", 0.0);

@@ -13,6 +13,7 @@
 namespace fem {
 
 enum class ContactMotion { rolling, shift };
+enum class ContactBodies { half_space, blocks };
 
 /// What is asked of a contact.
 struct ContactCase {
@@ -22,6 +23,7 @@ struct ContactCase {
   double friction = 0.0;              ///< Coulomb's coefficient
   std::optional<PatchEllipse> hertz;  ///< where both radii are given
   PatchGrid grid;
+  ContactBodies bodies = ContactBodies::half_space;
   ContactMotion motion = ContactMotion::rolling;
   Creepage creepage;                    ///< of steady rolling
   std::vector<double> curve_factors;    ///< each times `creepage` is a point of the creep-force curve
@@ -39,10 +41,10 @@ double read_friction(const proto::Section& section);
 Creepage read_creepage(const proto::Section& section);
 
 /// Reads `[contact]`: normal_force_n, friction, wheel_radius_m, rail_crown_radius_m (flat without), wheel_profile,
-/// rail_profile, wheel_shift_m, young_pa, poisson (of the rail), wheel_young_pa, wheel_poisson, motion ("rolling":
-/// longitudinal_creepage, lateral_creepage, spin_per_m, curve_factors; "shift": longitudinal_shift_m, lateral_shift_m)
-/// and [contact.grid]: elements_per_semi_axis, margin (around Hertz's ellipse), or elements and element_m. Throws
-/// proto::Error (config, missing_input, bad_data).
+/// rail_profile, wheel_shift_m, young_pa, poisson (of the rail), wheel_young_pa, wheel_poisson, bodies ("half_space";
+/// "blocks" of finite elements), motion ("rolling": longitudinal_creepage, lateral_creepage, spin_per_m, curve_factors;
+/// "shift": longitudinal_shift_m, lateral_shift_m) and [contact.grid]: elements_per_semi_axis, margin (around Hertz's
+/// ellipse), or elements and element_m. Throws proto::Error (config, missing_input, bad_data).
 ContactCase read_contact(const proto::CaseFile& file);
 
 }  // namespace fem

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fem_solver/contact/hertz.hpp"
-#include "fem_solver/contact/patch_grid.hpp"
+#include "fem_solver/contact/patch_compliance.hpp"
 
 namespace fem {
 
@@ -28,16 +28,14 @@ enum class Influence { normal, xx, xy, yy };
 /// Difference of the two surfaces' displacements at the elements' centres, all moved along x by `shift`, per unit of a
 /// constant traction on one element (Boussinesq and Cerruti, integrated over rectangles by Love; Kalker 1990). Depends
 /// on the difference of places alone.
-class InfluenceTable {
+class InfluenceTable : public NormalCompliance {
  public:
   /// `shift`: of the points where the displacement is asked for, ahead of the elements' centres [m].
   InfluenceTable(const PatchGrid& grid, const PairElasticity& pair, Influence influence, double shift = 0.0);
 
-  /// displacement += influence * traction in `box`, which must hold every element with traction. [m] from [Pa]
-  void add(const PatchBox& box, const PatchField& traction, PatchField& displacement) const;
-
-  /// Of an element on itself when the table is not shifted [m/Pa].
-  double self() const { return values_(n_x_ - 1, n_y_ - 1); }
+  void add(const PatchBox& box, const PatchField& traction, PatchField& displacement) const override;
+  /// Where the table is not shifted.
+  double self() const override { return values_(n_x_ - 1, n_y_ - 1); }
 
  private:
   int n_x_, n_y_;

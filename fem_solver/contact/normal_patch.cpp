@@ -23,7 +23,10 @@ using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
 }  // namespace
 
 NormalPatch::NormalPatch(const PatchGrid& grid, const PairElasticity& pair)
-    : grid_(grid), influence_(grid, pair, Influence::normal) {}
+    : NormalPatch(grid, std::make_unique<InfluenceTable>(grid, pair, Influence::normal)) {}
+
+NormalPatch::NormalPatch(const PatchGrid& grid, std::unique_ptr<const NormalCompliance> compliance)
+    : grid_(grid), compliance_(std::move(compliance)) {}
 
 NormalSolution NormalPatch::at_approach(const PatchField& gap, double approach, const PatchField& guess,
                                         const char* where) const {
@@ -38,12 +41,12 @@ NormalSolution NormalPatch::at_approach(const PatchField& gap, double approach, 
 
   PatchField& p = solution.pressure;
   p = candidates.select(guess.max(0.0), 0.0);
-  if ((p <= 0).all()) p = candidates.select(overlap / (influence_.self() * box.n_i), 0.0);
+  if ((p <= 0).all()) p = candidates.select(overlap / (compliance_->self() * box.n_i), 0.0);
 
   PatchField g = grid_.zeros(), direction = grid_.zeros(), image = grid_.zeros();
   const auto residual_gap = [&] {
     g = -overlap;
-    influence_.add(box, p, g);
+    compliance_->add(box, p, g);
     ++solution.iterations;
   };
   residual_gap();
@@ -65,10 +68,10 @@ NormalSolution NormalPatch::at_approach(const PatchField& gap, double approach, 
     direction = contact.select(conjugate ? (g + square / square_before * direction).eval() : g, 0.0);
     square_before = square;
     image.setZero();
-    influence_.add(box, direction, image);
+    compliance_->add(box, direction, image);
     ++solution.iterations;
     const double curvature = (direction * image).sum();
-    const double length = curvature > 0 ? (g * direction).sum() / curvature : 1 / influence_.self();
+    const double length = curvature > 0 ? (g * direction).sum() / curvature : 1 / compliance_->self();
     p -= length * direction;
     const Mask pulled = p < 0, pressed = candidates && !contact && g < 0;
     conjugate = !pulled.any() && !pressed.any();
@@ -94,7 +97,7 @@ PatchField NormalPatch::tangent_pressure(const PatchBox& box, const PatchField& 
   double square = begin;
   for (int k = 0; k < n_iterations && square > tangent_tolerance * tangent_tolerance * begin; ++k, ++iterations) {
     image.setZero();
-    influence_.add(box, direction, image);
+    compliance_->add(box, direction, image);
     const double length = square / (direction * image).sum();
     q += length * direction;
     residual = contact.select(residual - length * image, 0.0);
@@ -117,7 +120,6 @@ NormalSolution NormalPatch::at_force(const PatchField& gap, double force, const 
     now = at_approach(gap, now.approach + (force - now.force) / now.tangent, now.pressure, where);
     iterations += now.iterations;
   }
-  require_inside(now.pressure, where);
   now.iterations = iterations;
   return now;
 }

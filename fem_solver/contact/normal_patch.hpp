@@ -1,6 +1,8 @@
 // Frictionless contact of two half-spaces on a grid: pressure from the approach.
 #pragma once
 
+#include <memory>
+
 #include "fem_solver/contact/half_space.hpp"
 
 namespace fem {
@@ -19,7 +21,10 @@ struct NormalSolution {
 /// Converged when every |g| in contact and every overlap is at most 1e-12 of the largest undeformed overlap.
 class NormalPatch {
  public:
+  /// On half-spaces.
   NormalPatch(const PatchGrid& grid, const PairElasticity& pair);
+  /// On bodies of this compliance.
+  NormalPatch(const PatchGrid& grid, std::unique_ptr<const NormalCompliance> compliance);
 
   const PatchGrid& grid() const { return grid_; }
 
@@ -28,14 +33,14 @@ class NormalPatch {
   NormalSolution at_approach(const PatchField& gap, double approach, const PatchField& guess, const char* where) const;
 
   /// Newton's method on the approach until the force is met within 1e-10. `guess` needs an approach and a pressure.
-  /// Throws as at_approach(), and when the patch reaches the edge of the grid.
+  /// Throws as at_approach(). Whether the patch reaches the edge of the grid is not looked at: require_inside().
   NormalSolution at_force(const PatchField& gap, double force, const NormalSolution& guess, const char* where) const;
 
  private:
   PatchField tangent_pressure(const PatchBox& box, const PatchField& pressure, int& iterations) const;
 
   PatchGrid grid_;
-  InfluenceTable influence_;
+  std::unique_ptr<const NormalCompliance> compliance_;
 };
 
 }  // namespace fem

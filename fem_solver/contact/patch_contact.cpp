@@ -56,6 +56,7 @@ PatchField PatchContact::gap_at(double position) const {
 PatchState PatchContact::at_rest(double position, double& approach) const {
   const NormalSolution normal = normal_.at_force(
       gap_at(position), wheel_.static_load, first_guess(grid_, pair_, wheel_.static_load), where(position).c_str());
+  require_inside(normal.pressure, where(position).c_str());
   approach = normal.approach;
   return {normal.pressure, PatchVectors::zeros(grid_), PatchVectors::zeros(grid_),
           -settings_.creepage.longitudinal * wheel_.speed};

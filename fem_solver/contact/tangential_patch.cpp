@@ -47,7 +47,10 @@ void TangentialInfluence::add(const PatchBox& box, const PatchVectors& traction,
 }
 
 TangentialPatch::TangentialPatch(const PatchGrid& grid, const PairElasticity& pair)
-    : grid_(grid), influence_(grid, pair, 0.0) {}
+    : TangentialPatch(grid, std::make_unique<TangentialInfluence>(grid, pair, 0.0)) {}
+
+TangentialPatch::TangentialPatch(const PatchGrid& grid, std::unique_ptr<const ShearCompliance> compliance)
+    : grid_(grid), compliance_(std::move(compliance)) {}
 
 TangentialSolution TangentialPatch::solve(const PatchField& bound, const PatchVectors& rigid, const PatchVectors& guess,
                                           double tolerance, const char* where) const {
@@ -57,11 +60,11 @@ TangentialSolution TangentialPatch::solve(const PatchField& bound, const PatchVe
   PatchVectors &p = solution.traction, &g = solution.slip;
   const auto gradient = [&] {
     g = rigid;
-    influence_.add(box, p, g);
+    compliance_->add(box, p, g);
     ++solution.iterations;
   };
   gradient();
-  const double single = 1 / influence_.self();
+  const double single = 1 / compliance_->self();
   double factor = single / 4;
   // p'A p/2 + rigid'p, since g = A p + rigid.
   const auto objective = [&] { return (dot(g, p) + dot(rigid, p)) / 2; };
@@ -83,7 +86,7 @@ TangentialSolution TangentialPatch::solve(const PatchField& bound, const PatchVe
                          "the shear traction does not converge (changes in Pa:" + history.str() + ")", where,
                          "check the creepages and the friction coefficient");
     PatchVectors d = projected_step(p, g, factor, bound), image = PatchVectors::zeros(grid_);
-    influence_.add(box, d, image);
+    compliance_->add(box, d, image);
     ++solution.iterations;
     const double slope = dot(g, d), curvature = dot(d, image), square = dot(d, d);
     // A full step unless the objective would rise above what it was lately; else the exact minimum on the way.

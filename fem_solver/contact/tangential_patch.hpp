@@ -1,27 +1,19 @@
 // Friction between two half-spaces on a grid: shear traction from the rigid slip.
 #pragma once
 
+#include <memory>
+
 #include "fem_solver/contact/half_space.hpp"
 
 namespace fem {
 
-/// A vector per element: components along (x) and across (y) the rail.
-struct PatchVectors {
-  PatchField x, y;
-
-  static PatchVectors zeros(const PatchGrid& grid) { return {grid.zeros(), grid.zeros()}; }
-  PatchField norm() const { return (x.square() + y.square()).sqrt(); }
-};
-
 /// The three tables of the tangential influence, their points `shift` ahead [m].
-class TangentialInfluence {
+class TangentialInfluence : public ShearCompliance {
  public:
   TangentialInfluence(const PatchGrid& grid, const PairElasticity& pair, double shift);
 
-  /// displacement += influence * traction in `box`, which must hold every element with traction.
-  void add(const PatchBox& box, const PatchVectors& traction, PatchVectors& displacement) const;
-
-  double self() const { return xx_.self(); }
+  void add(const PatchBox& box, const PatchVectors& traction, PatchVectors& displacement) const override;
+  double self() const override { return xx_.self(); }
 
  private:
   InfluenceTable xx_, xy_, yy_;
@@ -38,7 +30,10 @@ struct TangentialSolution {
 /// projected gradient method (Birgin, Martinez & Raydan, SIAM J. Optim. 10, 2000).
 class TangentialPatch {
  public:
+  /// On half-spaces.
   TangentialPatch(const PatchGrid& grid, const PairElasticity& pair);
+  /// On bodies of this compliance.
+  TangentialPatch(const PatchGrid& grid, std::unique_ptr<const ShearCompliance> compliance);
 
   const PatchGrid& grid() const { return grid_; }
 
@@ -51,7 +46,7 @@ class TangentialPatch {
 
  private:
   PatchGrid grid_;
-  TangentialInfluence influence_;
+  std::unique_ptr<const ShearCompliance> compliance_;
 };
 
 }  // namespace fem

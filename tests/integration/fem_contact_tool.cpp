@@ -29,12 +29,13 @@ struct Outcome {
   std::string text;
 };
 
-/// Runs the tool on a case of this text, its output in `folder`.
-Outcome contact(const std::string& text, const tests::TemporaryFolder& folder) {
+/// Runs the tool of `program` on a case of this text, its output in `folder`.
+Outcome contact(const std::string& text, const tests::TemporaryFolder& folder,
+                const std::string& program = "fem_solver") {
   const std::string path = folder.path() + "/case.toml", log = folder.path() + "/log";
   std::ofstream(path) << text;
-  const std::string command =
-      HOUSE_BIN_DIR "/fem_solver contact " + path + " --out " + folder.path() + " >" + log + " 2>&1";
+  const std::string command = std::string(HOUSE_BIN_DIR) + "/" + program + " contact " + path + " --out " +
+                              folder.path() + " >" + log + " 2>&1";
   const int status = std::system(command.c_str());
   return {static_cast<ExitCode>(WEXITSTATUS(status)), tests::read_text(log)};
 }
@@ -85,6 +86,23 @@ TEST(ContactTool, reads_profiles) {
   const proto::ResultReader file(folder.path() + "/contact.h5");
   EXPECT_TRUE(near_rel(file.read("normal/approach").values.at(0), 90.8e-6, 0.01));
   EXPECT_LT(file.read("shear/longitudinal").values.at(0), -1e3);
+}
+
+// The reference: two blocks of finite elements, coarse here; fem_beam has none.
+TEST(ContactTool, solves_blocks) {
+  const tests::TemporaryFolder folder;
+  const std::string text =
+      "[contact]\nnormal_force_n = 80e3\nfriction = 0.3\nwheel_radius_m = 0.43\nrail_crown_radius_m = 0.3\nbodies = "
+      "\"blocks\"\nmotion = \"shift\"\nlongitudinal_shift_m = -1e-5\n[contact.grid]\nelements_per_semi_axis = 4\n";
+  const Outcome run = contact(text, folder);
+  ASSERT_EQ(run.code, ExitCode::ok) << run.text;
+  const proto::ResultReader file(folder.path() + "/contact.h5");
+  EXPECT_TRUE(near_rel(file.read("normal/approach").values.at(0), 90.8e-6, 0.05));
+  EXPECT_TRUE(near_rel(file.read("normal/force").values.at(0), 80e3, 1e-8));
+  EXPECT_GT(file.read("shear/longitudinal").values.at(0), 1e3);
+  const Outcome beam = contact(text, folder, "fem_beam");
+  EXPECT_EQ(beam.code, ExitCode::config);
+  EXPECT_NE(beam.text.find("fem_beam has no solid elements - contact.bodies"), std::string::npos) << beam.text;
 }
 
 TEST(ContactTool, refuses_bad_input_by_name) {
