@@ -28,63 +28,97 @@ NormalPatch::NormalPatch(const PatchGrid& grid, const PairElasticity& pair)
 NormalPatch::NormalPatch(const PatchGrid& grid, std::unique_ptr<const NormalCompliance> compliance)
     : grid_(grid), compliance_(std::move(compliance)) {}
 
+// One problem on its way: pressure p, the gap g that it leaves, and the direction of search.
+class NormalPatch::Search {
+ public:
+  PatchBox box;  // of all that can touch
+  PatchField pressure;
+  bool gap_is_true = true;
+  int products = 0;
+
+  Search(const NormalCompliance& compliance, const PatchField& overlap, const PatchField& guess)
+      : compliance_(compliance), overlap_(overlap), candidates_(overlap > 0) {
+    box = bounding_box(candidates_);
+    if (box.empty()) {
+      pressure = PatchField::Zero(overlap.rows(), overlap.cols());
+      return;
+    }
+    largest_ = overlap.maxCoeff();
+    pressure = candidates_.select(guess.max(0.0), 0.0);
+    if ((pressure <= 0).all()) pressure = candidates_.select(overlap / (compliance.self() * box.n_i), 0.0);
+    find_gap();
+  }
+
+  /// Largest gap in contact or overlap outside, over the largest undeformed overlap.
+  double error() const {
+    const PatchField outside = candidates_.select((-gap_).max(0.0), 0.0);
+    return (pressure > 0).select(gap_.abs(), outside).maxCoeff() / largest_;
+  }
+
+  /// g = A p - overlap, instead of the one that the steps have carried along.
+  void find_gap() {
+    gap_ = -overlap_;
+    compliance_.add(box, pressure, gap_);
+    ++products, gap_is_true = true;
+  }
+
+  void step() {
+    const Mask contact = pressure > 0;
+    const double square = contact.select(gap_.square(), 0.0).sum();
+    if (conjugate_)
+      direction_ = contact.select(gap_ + square / square_ * direction_, 0.0);
+    else
+      direction_ = contact.select(gap_, 0.0);
+    square_ = square;
+    PatchField image = PatchField::Zero(gap_.rows(), gap_.cols());
+    compliance_.add(box, direction_, image);
+    ++products;
+    const double curvature = (direction_ * image).sum();
+    const double length = curvature > 0 ? (gap_ * direction_).sum() / curvature : 1 / compliance_.self();
+    pressure -= length * direction_;
+    const Mask pulled = pressure < 0, pressed = candidates_ && !contact && gap_ < 0;
+    conjugate_ = !pulled.any() && !pressed.any();
+    if (conjugate_) {
+      gap_ -= length * image, gap_is_true = false;
+      return;
+    }
+    pressure = pulled.select(0.0, pressure);
+    pressure = pressed.select(-length * gap_, pressure);
+    find_gap();
+  }
+
+ private:
+  const NormalCompliance& compliance_;
+  const PatchField& overlap_;
+  Mask candidates_;  // pressure only pushes the surfaces apart: what does not overlap undeformed never touches
+  PatchField gap_, direction_;
+  double largest_ = 1.0, square_ = 1.0;
+  bool conjugate_ = false;
+};
+
 NormalSolution NormalPatch::at_approach(const PatchField& gap, double approach, const PatchField& guess,
                                         const char* where) const {
   if (!std::isfinite(approach)) throw proto::Error(proto::ExitCode::numerics, "the approach is not a number", where);
-  NormalSolution solution{grid_.zeros(), approach};
   const PatchField overlap = approach - gap;
-  // Pressure only pushes the surfaces apart, so that what does not overlap undeformed will never touch.
-  const Mask candidates = overlap > 0;
-  const PatchBox box = bounding_box(candidates);
-  if (box.empty()) return solution;
-  const double largest = overlap.maxCoeff();
-
-  PatchField& p = solution.pressure;
-  p = candidates.select(guess.max(0.0), 0.0);
-  if ((p <= 0).all()) p = candidates.select(overlap / (compliance_->self() * box.n_i), 0.0);
-
-  PatchField g = grid_.zeros(), direction = grid_.zeros(), image = grid_.zeros();
-  const auto residual_gap = [&] {
-    g = -overlap;
-    compliance_->add(box, p, g);
-    ++solution.iterations;
-  };
-  residual_gap();
+  Search search(*compliance_, overlap, guess);
+  NormalSolution solution{search.pressure, approach};
+  if (search.box.empty()) return solution;
   std::ostringstream history;
-  double square_before = 1.0;
-  bool conjugate = false, fresh = true;
   for (int iteration = 0;; ++iteration) {
-    const Mask contact = p > 0;
-    const double error = contact.select(g.abs(), candidates.select((-g).max(0.0), 0.0)).maxCoeff() / largest;
+    const double error = search.error();
     history << ' ' << error;
-    if (error <= tolerance && fresh) break;
+    if (error <= tolerance && search.gap_is_true) break;
     if (iteration == n_iterations || !std::isfinite(error))
       refuse("the contact pressure does not converge: largest gap error over the overlap", history, where);
-    if (error <= tolerance) {  // the carried gap has met the limit: see whether the true one does
-      residual_gap(), fresh = true;
-      continue;
-    }
-    const double square = contact.select(g.square(), 0.0).sum();
-    direction = contact.select(conjugate ? (g + square / square_before * direction).eval() : g, 0.0);
-    square_before = square;
-    image.setZero();
-    compliance_->add(box, direction, image);
-    ++solution.iterations;
-    const double curvature = (direction * image).sum();
-    const double length = curvature > 0 ? (g * direction).sum() / curvature : 1 / compliance_->self();
-    p -= length * direction;
-    const Mask pulled = p < 0, pressed = candidates && !contact && g < 0;
-    conjugate = !pulled.any() && !pressed.any();
-    if (conjugate) {
-      g -= length * image, fresh = false;
-      continue;
-    }
-    p = pulled.select(0.0, p);
-    p = pressed.select(-length * g, p);
-    residual_gap(), fresh = true;
+    if (error <= tolerance)
+      search.find_gap();
+    else
+      search.step();
   }
-  solution.force = p.sum() * grid_.area();
-  solution.tangent = tangent_pressure(box, p, solution.iterations).sum() * grid_.area();
+  solution.pressure = search.pressure;
+  solution.force = search.pressure.sum() * grid_.area();
+  solution.iterations = search.products;
+  solution.tangent = tangent_pressure(search.box, search.pressure, solution.iterations).sum() * grid_.area();
   return solution;
 }
 

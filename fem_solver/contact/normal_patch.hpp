@@ -37,6 +37,7 @@ class NormalPatch {
   NormalSolution at_force(const PatchField& gap, double force, const NormalSolution& guess, const char* where) const;
 
  private:
+  class Search;
   PatchField tangent_pressure(const PatchBox& box, const PatchField& pressure, int& iterations) const;
 
   PatchGrid grid_;

@@ -99,6 +99,26 @@ TEST(Tangent, is_that_of_hertz_and_of_a_difference) {
   EXPECT_TRUE(near_rel((at(90.8e-6 + 1e-12).force - at(90.8e-6 - 1e-12).force) / 2e-12, found.tangent, 1e-5));
 }
 
+// Far from an element its traction acts as the point force of Boussinesq and Cerruti (Johnson 3.22, 3.76).
+TEST(Influence, of_a_far_element_is_that_of_a_point) {
+  const fem::PatchGrid grid{16, 16, 1e-3, 1e-3};
+  const fem::PairElasticity pair{80e9, 0.3, 0.0};
+  const fem::PatchBox all{0, 0, 16, 16};
+  fem::PatchField traction = grid.zeros();
+  traction(1, 2) = 1e9;
+  const double shift = 0.7e-3, x = grid.x(13) + shift - grid.x(1), y = grid.y(9) - grid.y(2), r = std::hypot(x, y);
+  const double scale = 1e9 * grid.area() / (M_PI * pair.shear_modulus);
+  const auto displacement = [&](fem::Influence influence) {
+    fem::PatchField u = grid.zeros();
+    fem::InfluenceTable(grid, pair, influence, shift).add(all, traction, u);
+    return u(13, 9);
+  };
+  EXPECT_TRUE(near_rel(displacement(fem::Influence::normal), scale * 0.7 / r, 2e-3));
+  EXPECT_TRUE(near_rel(displacement(fem::Influence::xx), scale * (0.7 / r + 0.3 * x * x / (r * r * r)), 2e-3));
+  EXPECT_TRUE(near_rel(displacement(fem::Influence::yy), scale * (0.7 / r + 0.3 * y * y / (r * r * r)), 2e-3));
+  EXPECT_TRUE(near_rel(displacement(fem::Influence::xy), scale * 0.3 * x * y / (r * r * r), 4e-3));
+}
+
 // Two parabolas given as tables of points touch as their curvatures do.
 TEST(Profiles, parabolas_are_hertz) {
   std::vector<double> y, wheel, rail;

@@ -87,6 +87,21 @@ TEST_F(Passage, profiles_that_are_a_crown_give_its_force) {
   for (std::size_t n = 0; n < crown.size(); ++n) ASSERT_TRUE(near_rel(profiles[n], crown[n], 1e-3));
 }
 
+// A rail that is curved along its length by 0.5 m under the patch adds that to the wheel's curvature.
+TEST(PatchGap, adds_the_rails_own_curvature) {
+  fem::WheelSettings wheel = patch_wheel();
+  wheel.irregularity.kind = fem::IrregularityKind::table;
+  for (int k = -300; k <= 300; ++k) {
+    const double x = 1e-4 * k;
+    wheel.irregularity.x.push_back(wheel.start + x);
+    wheel.irregularity.height.push_back(-x * x / 2 / 0.5);
+  }
+  double approach = 0.0;
+  fem::PatchContact(wheel, step).at_rest(wheel.start, approach);
+  const fem::Hertz hertz(1 / (1 / 0.43 + 1 / 0.5), 0.3, {}, {});
+  EXPECT_TRUE(near_rel(approach, hertz.at_force(wheel.static_load).approach, 0.01));
+}
+
 // Once it no longer spins up, the shear takes what the torque gives; the creepage is that of steady rolling.
 TEST_F(Passage, shear_balances_the_torque) {
   for (const double torque : {2000.0, -2000.0}) {
