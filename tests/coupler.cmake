@@ -96,6 +96,18 @@ house_test(coupler_resume_test fault ALONE SOURCES fault/coupler_resume.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 400)
 add_dependencies(coupler_resume_test coupler qdem_solver fem_solver oscillator_participant)
 
+house_test(coupler_surroundings_test fault SOURCES fault/coupler_surroundings.cpp
+           LIBRARIES proto::case nlohmann_json::nlohmann_json)
+add_dependencies(coupler_surroundings_test coupler oscillator_participant relaxing_participant)
+
+# The same with the full counts; not in the default run: tests/run --label fault-long.
+add_test(NAME coupler_kills_long_test COMMAND coupler_resume_test --gtest_filter=Resume.AfterKills*)
+set_tests_properties(coupler_kills_long_test PROPERTIES ENVIRONMENT HOUSE_KILLS=300 TIMEOUT 7200)
+add_test(NAME coupler_checkpoint_kills_long_test COMMAND coupler_surroundings_test --gtest_filter=CheckpointKill.*)
+set_tests_properties(coupler_checkpoint_kills_long_test PROPERTIES ENVIRONMENT HOUSE_KILLS=500 TIMEOUT 7200)
+set_tests_properties(coupler_kills_long_test coupler_checkpoint_kills_long_test PROPERTIES LABELS fault-long RUN_SERIAL
+                                                                                           TRUE)
+
 # What a participant has to keep, and participants that do not.
 add_executable(broken_participant support/broken_participant.cpp)
 target_link_libraries(broken_participant PRIVATE proto::participant proto_session_sockets proto::result_serial
