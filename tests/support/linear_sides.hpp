@@ -118,7 +118,7 @@ inline proto::Result LinearRail::advance(const proto::Advance& request) {
   step(request.window_s, body_.load(time_, time_ + request.window_s) - body_.points.transpose() * given,
        std::vector<bool>(pad_.laws.size(), false), none, none);
   result.data = motion();
-  result.data.set(field::force_used, widened(given));
+  result.data.set(field::force_used, joint ? widened(given) : request.data.get(field::force_mean));
   return result;
 }
 
