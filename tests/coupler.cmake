@@ -85,6 +85,11 @@ house_test(coupler_resume_test fault ALONE SOURCES fault/coupler_resume.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 400)
 add_dependencies(coupler_resume_test coupler qdem_solver fem_solver oscillator_participant)
 
+# A script that takes two network namespaces for two hosts.
+add_test(NAME two_hosts_test COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/fault/two_hosts.sh ${PROJECT_BINARY_DIR}/bin
+         ${PROJECT_SOURCE_DIR}/cases/split_oscillator)
+set_tests_properties(two_hosts_test PROPERTIES LABELS fault TIMEOUT 120 SKIP_RETURN_CODE 77)
+
 # What a participant has to keep, and participants that do not.
 add_executable(broken_participant support/broken_participant.cpp)
 target_link_libraries(broken_participant PRIVATE proto::participant proto_session_sockets proto::result_serial

@@ -80,6 +80,7 @@ class Connection {
   std::uint64_t session_ = 0, sent_ = 0, received_ = 0;
   double heartbeat_s_ = 1.0;
   bool blocked_ = false, lost_ = false, finished_ = false;
+  std::string refusal_;  ///< why the connection was not made
   std::optional<Request> last_advance_;
   std::optional<Outgoing> last_result_;
 
