@@ -19,6 +19,8 @@ void add_init_command(CLI::App& app, Action& chosen);
 void add_keys_command(CLI::App& app, Action& chosen);
 void add_profile_command(CLI::App& app, Action& chosen);
 void add_replay_command(CLI::App& app, Action& chosen);
+void add_schema_command(CLI::App& app, Action& chosen);
+void add_slurm_command(CLI::App& app, Action& chosen);
 void add_watch_command(CLI::App& app, Action& chosen);
 
 }  // namespace coupler

@@ -32,6 +32,7 @@ int run(int argc, char** argv, const FemProgram& program) {
   auto* contact = app.add_subcommand("contact", "one contact of wheel and rail: patch, stick and slip, creep forces");
   contact->add_option("case", path, "case file with [contact]")->required();
   contact->add_option("--out", out, "output folder; must exist");
+  auto* schema = app.add_subcommand("schema", "print the JSON Schema of the case's FEM sections");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -40,6 +41,10 @@ int run(int argc, char** argv, const FemProgram& program) {
 
   if (contact->parsed()) {
     run_contact(path, program.name, program.blocks, out);
+    return 0;
+  }
+  if (schema->parsed()) {
+    std::printf("%s\n", fem_schema().c_str());
     return 0;
   }
   auto input = read_fem_case(path);

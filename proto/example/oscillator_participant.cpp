@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "proto/case/case_schema.hpp"
 #include "proto/case/rail_seat.hpp"
 #include "proto/result/state_file.hpp"
 #include "proto/session/participant.hpp"
@@ -346,6 +347,7 @@ int run(int argc, char** argv) {
   KeyFiles keys;
   auto* check = app.add_subcommand("check", "validate the case without running it");
   auto* participant = app.add_subcommand("participant", "take part in a coupled run; started by the coupler");
+  auto* schema = app.add_subcommand("schema", "print the JSON Schema of the sections that it reads");
   for (auto* command : {check, participant}) command->add_option("--case", path, "case file")->required();
   participant->add_option("--side", side, "which mass")->required()->check(CLI::IsMember({"explicit", "implicit"}));
   participant->add_option("--endpoint", endpoint, "where the coupler listens")->required();
@@ -357,6 +359,11 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  }
+  if (schema->parsed()) {
+    std::printf("%s\n",
+                case_schema({[](const CaseFile& any) { read_case(any); }}, "rail_seat = [{cells = [1, 1]}]").c_str());
+    return 0;
   }
   const auto file = CaseFile::load(path);
   const auto input = read_case(file);

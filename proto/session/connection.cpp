@@ -30,6 +30,7 @@ SocketSettings settings_of(const SessionOptions& options) {
 Connection::Connection(const SessionOptions& options, const Progress& progress)
     : options_(options),
       progress_(progress),
+      over_ipc_(options.endpoint.rfind("ipc://", 0) == 0),
       context_(make_context()),
       socket_(context_, zmq::socket_type::dealer),
       monitor_(context_, socket_),
@@ -156,8 +157,9 @@ void Connection::watch_connection() {
       refusal_ = "the coupler does not know this key";
     else if (event->kind == ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL)
       refusal_ = options_.key.public_key.empty() ? "the coupler asks for a key" : "the coupler takes no keys";
-    else if (event->kind == ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL)
-      refusal_ = "it ended in its handshake, as it does with another coupler's key";
+    else if (event->kind == ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL && !over_ipc_)
+      refusal_ = options_.key.public_key.empty() ? "it ended in its handshake, as it does where a key is asked for"
+                                                 : "it ended in its handshake, as it does with another coupler's key";
   }
 }
 

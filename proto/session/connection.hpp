@@ -71,6 +71,7 @@ class Connection {
 
   const SessionOptions options_;
   const Progress& progress_;
+  const bool over_ipc_;  ///< where nobody is refused: a connection that ends lost its coupler
 
   // Owned by the communication thread once it runs.
   zmq::context_t context_;

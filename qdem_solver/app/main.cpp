@@ -79,6 +79,9 @@ int run(int argc, char** argv) {
   checker->add_option("--case", arguments.case_path, "case file")->required();
   checker->callback([&] { check(arguments); });
 
+  auto* schema = app.add_subcommand("schema", "print the JSON Schema of the sections that it reads");
+  schema->callback([] { qdem::schema_command(); });
+
   auto* participant = app.add_subcommand("participant", "take part in a coupled run; started by the coupler");
   participant->add_option("--case", arguments.case_path, "case file")->required();
   participant->add_option("--endpoint", arguments.endpoint, "where the coupler listens")->required();
