@@ -99,6 +99,9 @@ add_test(NAME slurm_job_test COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/integratio
 set_tests_properties(slurm_job_test PROPERTIES LABELS integration TIMEOUT 120)
 
 # Every key of every case, wrong.
+add_executable(read_case_files support/read_case_files.cpp)
+target_link_libraries(read_case_files PRIVATE proto::case qdem::participant qdem::bed fem::profile house::options)
+set_target_properties(read_case_files PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
 add_test(NAME case_mutations_test COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/fault/case_mutations.py
          ${PROJECT_BINARY_DIR}/bin ${PROJECT_SOURCE_DIR})
 set_tests_properties(case_mutations_test PROPERTIES LABELS fault TIMEOUT 600 ENVIRONMENT OMP_NUM_THREADS=1)

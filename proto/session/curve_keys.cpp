@@ -82,9 +82,12 @@ void refuse_open_file(const File& file, const std::string& path) {
 }  // namespace
 
 bool needs_keys(const std::string& address) {
-  for (const char* own : {"ipc://", "inproc://", "tcp://127."})
-    if (address.rfind(own, 0) == 0) return false;
-  return true;
+  const std::string loopback = "tcp://127.";
+  if (address.rfind("ipc://", 0) == 0 || address.rfind("inproc://", 0) == 0) return false;
+  if (address.rfind(loopback, 0) != 0) return true;
+  // A name may begin like that too, and a second address may follow.
+  const auto end = address.find_first_not_of("0123456789.", loopback.size());
+  return end != std::string::npos && address[end] != ':';
 }
 
 KeyPair make_key_pair() {

@@ -135,7 +135,8 @@ TEST_F(SessionDoor, noise_does_not_disturb) {
 }
 
 TEST_F(SessionDoor, is_not_made_for_others_without_keys) {
-  for (const char* address : {"tcp://0.0.0.0", "tcp://*:5555", "tcp://10.0.0.1", "tcp://[::1]", "udp://127.0.0.1", "x"})
+  for (const char* address : {"tcp://0.0.0.0", "tcp://*:5555", "tcp://10.0.0.1", "tcp://[::1]", "tcp://127.0.0.1.org:5",
+                              "tcp://127.0.0.1;10.0.0.1:5", "udp://127.0.0.1", "x"})
     EXPECT_EQ(code_of([&] { make_door(address, "", {}); }), static_cast<int>(ExitCode::usage)) << address;
   EXPECT_EQ(code_of([&] { make_door("tcp://0.0.0.0", keys, {"mock"}); }), 0);
   EXPECT_EQ(code_of([&] { make_door("tcp://0.0.0.0", keys, {"nobody"}); }), static_cast<int>(ExitCode::missing_input));
