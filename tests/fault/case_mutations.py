@@ -26,14 +26,30 @@ reader = subprocess.Popen([bin_folder.parent / "test_bin/read_case_files"], stdi
                           stdout=subprocess.PIPE, text=True)
 
 
+# A misspelling that first breaks what the key belongs to: the complaint is about that, and names this.
+TOLD_BY_ANOTHER_KEY = {
+    "bed.sieve_sizes_m": "sieve",
+    "bed.sieve_passing_percent": "sieve",
+    "coupling.initialise.max_windows": "max_windows",
+    "qdem.sensor_interval_s": "sensor_interval_s",
+    "qdem.run.load.drop_height_m": "drop_height_m",
+    "qdem.contact.normal_stiffness_n_per_m": "normal_stiffness_n_per_m",
+    "qdem.contact.damping_ratio": "damping_ratio",
+}
+
+
 def command(top):
-    if top in ("coupling", "rail_seat"):
+    if top == "rail_seat":
+        return [bin_folder / "fem_solver" if "[coupling]" in text else bin_folder / "qdem_solver", "check", "--case"]
+    if top == "coupling":
         return [bin_folder / "coupler", "check"]
     program = {"bed": "qdem_solver", "qdem": "qdem_solver", "oscillator": "oscillator_participant"}.get(top, "fem_solver")
     return [bin_folder / program, "check", "--case"]
 
 
 def toml(value):
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
     if isinstance(value, float) and not math.isfinite(value):
         return "nan" if math.isnan(value) else "inf"
     return json.dumps(value)
@@ -80,7 +96,11 @@ def mutations(key, lines):
     """(what, changed line or lines, line of the complaint or None, words of the complaint)"""
     name, line = key.name, lines[key.line]
     short = name[:2] + name[3:]
-    yield "misspelt", line.replace(name, short, 1), key.line, [short, "did you mean '"]
+    misspelt = line.replace(name, short, 1)
+    if key.full_name in TOLD_BY_ANOTHER_KEY:
+        yield "misspelt", misspelt, None, [TOLD_BY_ANOTHER_KEY[key.full_name]]
+    else:
+        yield "misspelt", misspelt, key.line, [short, "did you mean '"]
     yield "duplicated", [line, line], key.line + 1, [name]
     if key.required:
         yield "missing", None, None, ["missing", name]

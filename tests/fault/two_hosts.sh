@@ -68,7 +68,7 @@ check "who was awaited where" said "fem (awaited at tcp://$near:.*) did not conn
 "$bin/coupler" run "$work/case.toml" --out "$work/out" --listen tcp://$near --await fem --keys "$work/keys" \
   2>"$work/coupler.err" >/dev/null &
 coupler=$!
-for ((i = 0; i < 100; i++)); do [[ -s $work/out/session ]] && break || sleep 0.1; done
+for ((i = 0; i < 300; i++)); do [[ -s $work/out/session ]] && break || sleep 0.1; done
 check "the token is for its owner alone" test "$(stat -c %a "$work/out/session")" = 600
 
 fem
@@ -93,7 +93,8 @@ check "the right key" test "$code" = 0
 code=0
 wait $coupler || code=$?
 check "the run" test "$code" = 0
-for text in "as one without a key does" "is not on the list" "made for another coupler's key"; do
+# Which end notices first that there is no key is a matter of time.
+for text in "shows no key\|as one without a key does" "is not on the list" "made for another coupler's key"; do
   check "in the log: $text" said "$text" "$work/out/run.log"
 done
 check "the token is gone" test ! -e "$work/out/session"

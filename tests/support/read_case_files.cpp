@@ -14,8 +14,9 @@ namespace {
 
 void read(const std::string& section, const std::string& path) {
   const auto file = proto::CaseFile::load(path);
-  if (section == "coupling" || section == "rail_seat") {
+  if (section == "coupling") {
     proto::read_coupling(file);
+  } else if (section == "rail_seat") {
     proto::read_rail_seats(file);
   } else if (section == "bed" || section == "qdem") {
     qdem::read_qdem_case(file);
