@@ -100,7 +100,7 @@ set_tests_properties(slurm_job_test PROPERTIES LABELS integration TIMEOUT 120)
 
 # Every key of every case, wrong.
 add_executable(read_case_files support/read_case_files.cpp)
-target_link_libraries(read_case_files PRIVATE proto::case qdem::participant qdem::bed fem::profile house::options)
+target_link_libraries(read_case_files PRIVATE proto::case qdem::participant qdem::bed fem::patch house::options)
 set_target_properties(read_case_files PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
 add_test(NAME case_mutations_test COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/fault/case_mutations.py
          ${PROJECT_BINARY_DIR}/bin ${PROJECT_SOURCE_DIR})
