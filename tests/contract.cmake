@@ -18,5 +18,8 @@ add_test(NAME contract_cuda_build COMMAND bash ${contract}/cuda_build.sh ${PROJE
          ${PROJECT_BINARY_DIR}/cuda_build /usr/include/eigen3)
 set_tests_properties(contract_cuda_build PROPERTIES LABELS contract TIMEOUT 600 SKIP_RETURN_CODE 77)
 if(TARGET coupler AND TARGET qdem_solver AND TARGET fem_solver)
+  add_test(NAME contract_case_schema COMMAND /usr/bin/python3 ${contract}/case_schema.py $<TARGET_FILE:coupler>
+           ${PROJECT_SOURCE_DIR})
+  set_tests_properties(contract_case_schema PROPERTIES LABELS contract TIMEOUT 60 SKIP_RETURN_CODE 77)
   contract_test(cases_accepted bash ${contract}/cases_accepted.sh $<TARGET_FILE:coupler> ${PROJECT_SOURCE_DIR})
 endif()

@@ -107,6 +107,26 @@ add_test(NAME coupler_checkpoint_kills_long_test COMMAND coupler_surroundings_te
 set_tests_properties(coupler_checkpoint_kills_long_test PROPERTIES ENVIRONMENT HOUSE_KILLS=500 TIMEOUT 7200)
 set_tests_properties(coupler_kills_long_test coupler_checkpoint_kills_long_test PROPERTIES LABELS fault-long RUN_SERIAL
                                                                                            TRUE)
+house_test(wire_fuzz_test fault SOURCES fault/wire_fuzz.cpp
+           LIBRARIES coupler::record proto::wire nlohmann_json::nlohmann_json TIMEOUT 300)
+add_dependencies(wire_fuzz_test coupler oscillator_participant)
+# A script that takes two network namespaces for two hosts.
+add_test(NAME two_hosts_test COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/fault/two_hosts.sh ${PROJECT_BINARY_DIR}/bin
+         ${PROJECT_SOURCE_DIR}/cases/split_oscillator)
+set_tests_properties(two_hosts_test PROPERTIES LABELS fault TIMEOUT 120 SKIP_RETURN_CODE 77)
+
+# `coupler slurm`'s file, with a shell function in the place of Slurm.
+add_test(NAME slurm_job_test COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/integration/slurm_job.sh ${PROJECT_BINARY_DIR}/bin
+         ${PROJECT_SOURCE_DIR}/cases)
+set_tests_properties(slurm_job_test PROPERTIES LABELS integration TIMEOUT 120)
+
+# Every key of every case, wrong.
+add_executable(read_case_files support/read_case_files.cpp)
+target_link_libraries(read_case_files PRIVATE proto::case qdem::participant qdem::bed fem::patch house::options)
+set_target_properties(read_case_files PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
+add_test(NAME case_mutations_test COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/fault/case_mutations.py
+         ${PROJECT_BINARY_DIR}/bin ${PROJECT_SOURCE_DIR})
+set_tests_properties(case_mutations_test PROPERTIES LABELS fault TIMEOUT 600 ENVIRONMENT OMP_NUM_THREADS=1)
 
 # What a participant has to keep, and participants that do not.
 add_executable(broken_participant support/broken_participant.cpp)

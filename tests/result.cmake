@@ -4,6 +4,9 @@ house_test(result_states_test unit SOURCES unit/result_states.cpp LIBRARIES prot
 house_test(result_writer_killed fault SOURCES fault/result_writer_killed.cpp LIBRARIES proto::result_serial)
 house_test(result_disk_full fault SOURCES fault/result_disk_full.cpp LIBRARIES proto::result_serial)
 
+house_test(result_foreign_test fault SOURCES fault/result_foreign.cpp
+           LIBRARIES proto::result_serial PkgConfig::hdf5_serial)
+
 house_test(result_flavours unit SOURCES unit/result_flavours.cpp)
 foreach(flavour serial openmpi)
   add_executable(result_writer_${flavour} unit/result_flavour_writer.cpp)

@@ -10,7 +10,7 @@ CaseInput read_case(const std::string& path) {
   file.refuse_unknown_sections({"coupling", "track", "rail_seat", "bed", "qdem", "fem", "wheel", "oscillator"});
   auto coupling = proto::read_coupling(file);
   auto seats = proto::read_rail_seats(file);
-  return {std::move(file), std::move(coupling), std::move(seats)};
+  return {std::move(file), std::move(coupling), std::move(seats), {}};
 }
 
 void use_programs(proto::Coupling& coupling, const std::string& fem, const std::string& qdem) {
@@ -22,9 +22,11 @@ void use_programs(proto::Coupling& coupling, const std::string& fem, const std::
 std::vector<proto::ParticipantSpec> find_participants(const CaseInput& input) {
   std::vector<proto::ParticipantSpec> result{input.coupling.qdem};
   if (!plays_recorded_rail(input.coupling)) result.push_back(input.coupling.fem);
-  for (auto& spec : result)
+  for (auto& spec : result) {
+    if (input.awaited.count(spec.name)) continue;
     spec.command.front() =
         find_program(spec.command.front(), input.file.path() + ": coupling." + spec.name + "_command");
+  }
   return result;
 }
 

@@ -1,6 +1,7 @@
 // What the coupler takes from a case file.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct CaseInput {
   proto::CaseFile file;
   proto::Coupling coupling;
   std::vector<proto::RailSeat> seats;
+  std::set<std::string> awaited;  ///< participants that somebody else starts
 };
 
 /// Reads and checks the coupler's own and the common sections. Throws proto::Error (config, missing_input).
@@ -24,7 +26,7 @@ CaseInput read_case(const std::string& path);
 /// Throws proto::Error (missing_input) when there is no such program.
 void use_programs(proto::Coupling& coupling, const std::string& fem, const std::string& qdem);
 
-/// The participants' programs as absolute paths, in the order qdem, fem.
+/// The participants' programs as absolute paths, in the order qdem, fem. Those of awaited ones are left as they are.
 /// Throws proto::Error (missing_input) naming the key of the program that is not there.
 std::vector<proto::ParticipantSpec> find_participants(const CaseInput& input);
 

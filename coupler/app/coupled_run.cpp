@@ -1,6 +1,7 @@
 #include "coupler/app/coupled_run.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,8 @@ namespace {
 
 namespace field = proto::field;
 using Clock = std::chrono::steady_clock;
-constexpr double grace_s = 1.5;  // from SIGTERM to SIGKILL
+constexpr double grace_s = 1.5;                  // from SIGTERM to SIGKILL
+constexpr const char* session_file = "session";  // of those who start a participant by hand
 
 using proto::seconds_since;
 
@@ -38,14 +40,14 @@ std::vector<std::string> names_of(const CaseInput& input) {
 }  // namespace
 
 CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary,
-                       StatusFile& status)
+                       StatusFile& status, const proto::Door& door)
     : input_(input),
       names_(names_of(input)),
       folder_(folder),
       log_(log),
       summary_(summary),
       status_(status),
-      endpoint_(socket_folder_.path(), largest_message(input.seats), {names_, input.file.hash(), 1.0}),
+      endpoint_(socket_folder_.path(), largest_message(input.seats), {names_, input.file.hash(), 1.0}, door),
       children_(own_path()),
       supervisor_(children_, endpoint_, patience_of(input.coupling)),
       qdem_(supervisor_, "qdem"),
@@ -66,6 +68,7 @@ CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::
     update_wall_time();
     status_.write();
   });
+  supervisor_.on_turned_away([this](const std::string& text) { log_.warn("{}", text); });
   for (const auto& seat : input.seats) summary_.seats.push_back({seat.name, 0.0, 0.0, 0.0});
   status_.now().phase = "starting";
   status_.write();
@@ -73,6 +76,7 @@ CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::
 
 CoupledRun::~CoupledRun() {
   children_.stop(grace_s);
+  if (!input_.awaited.empty()) unlink(folder_.file(session_file).c_str());
 }
 
 void CoupledRun::record_frames() {
@@ -84,8 +88,29 @@ void CoupledRun::record_frames() {
   });
 }
 
+void CoupledRun::invite(const proto::ParticipantSpec& spec) {
+  const auto& door = endpoint_.door_address();
+  const auto& address = door.empty() ? endpoint_.address() : door;
+  const auto path = folder_.file(session_file);
+  // Lines that a shell can read.
+  proto::write_private_file(
+      path, fmt::format("QDEM_FEM_ENDPOINT='{}'\nQDEM_FEM_SESSION_TOKEN='{}'\n", address, endpoint_.session_token()));
+  supervisor_.expect(spec.name, address);
+  const auto text = fmt::format(
+      "waiting at most {:g} s for {}, to be started with --endpoint {} and the token in {}: {} --case {} "
+      "--out {} --name {}",
+      input_.coupling.connect_timeout_s, spec.name, address, path, fmt::join(spec.command, " "), input_.file.path(),
+      folder_.path(), spec.name);
+  log_.info("{}", text);
+  fmt::print(stderr, "coupler: {}\n", text);
+}
+
 void CoupledRun::start(int n_threads) {
   for (const auto& spec : find_participants(input_)) {
+    if (input_.awaited.count(spec.name)) {
+      invite(spec);
+      continue;
+    }
     auto child = participant_process(spec, input_.file.path(), endpoint_, folder_.path());
     if (n_threads > 0) child.environment.push_back({"OMP_NUM_THREADS", std::to_string(n_threads)});
     supervisor_.add(spec.name, spec.command.front(), child.log_path);

@@ -37,13 +37,13 @@ enum class MarchEnd { complete, stopped_by_user, out_of_time };
 class CoupledRun {
  public:
   CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary,
-             StatusFile& status);
+             StatusFile& status, const proto::Door& door = {});
   /// Ends whatever still runs.
   ~CoupledRun();
 
   /// Every frame of the run goes to a file frames.log, or frames-1.log, ... when there are some. To be called first.
   void record_frames();
-  /// Starts both participants and hands them endpoint and token.
+  /// Starts the participants and hands them endpoint and token; says how to start those that are awaited.
   void start(int n_threads);
   /// Handshake, check of the interface, configuration, sub-cycles.
   void set_up();
@@ -73,6 +73,7 @@ class CoupledRun {
  private:
   /// Puts the map between fem and the scheme when fem has points of its own.
   void map_rail(const proto::Interface& registered);
+  void invite(const proto::ParticipantSpec& spec);
   void configure();
   /// Ends the initialise phase; a step that the explicit side names replaces `largest_step_s`.
   InterfaceState initial_values(std::optional<double>& largest_step_s);

@@ -9,6 +9,9 @@ void add_kit_commands(CLI::App& app, Action& chosen) {
   add_conformance_command(app, chosen);
   add_replay_command(app, chosen);
   add_profile_command(app, chosen);
+  add_keys_command(app, chosen);
+  add_schema_command(app, chosen);
+  add_slurm_command(app, chosen);
 }
 
 }  // namespace coupler

@@ -1,4 +1,4 @@
-// The subcommands beside a run: a case before it, its state during it, its record after it, a solver alone.
+// The subcommands beside a run: a case before it, its state during it, its record after it, a solver alone, other machines.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,8 +16,11 @@ void add_kit_commands(CLI::App& app, Action& chosen);
 void add_conformance_command(CLI::App& app, Action& chosen);
 void add_graph_command(CLI::App& app, Action& chosen);
 void add_init_command(CLI::App& app, Action& chosen);
+void add_keys_command(CLI::App& app, Action& chosen);
 void add_profile_command(CLI::App& app, Action& chosen);
 void add_replay_command(CLI::App& app, Action& chosen);
+void add_schema_command(CLI::App& app, Action& chosen);
+void add_slurm_command(CLI::App& app, Action& chosen);
 void add_watch_command(CLI::App& app, Action& chosen);
 
 }  // namespace coupler

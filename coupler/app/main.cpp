@@ -59,6 +59,12 @@ int command_line(int argc, char** argv) {
   run->add_option("--wall-limit", options.wall_limit_s,
                   "seconds of wall time after which to save a checkpoint and stop")
       ->check(CLI::PositiveNumber);
+  auto* listen =
+      run->add_option("--listen", options.listen, "tcp://HOST[:PORT]: let awaited participants connect there");
+  run->add_option("--keys", options.keys, "folder of 'coupler keys'; any HOST but 127.x.x.x needs one")->needs(listen);
+  run->add_option("--await", options.awaited, "participants that are started by hand: qdem, fem")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"qdem", "fem"}));
   run->add_flag("--record", options.record, "write every frame to frames.log, for coupler replay");
   run->add_option("--restart", options.n_restarts, "how often to go on by itself when a participant is lost")
       ->check(CLI::Range(0, 1000));

@@ -26,6 +26,9 @@ struct RunOptions {
   double wall_limit_s = 0.0;      ///< stop in time with a checkpoint; 0: no limit [s]
   bool record = false;            ///< every frame goes to frames.log
   int n_restarts = 0;             ///< how often a run whose participant was lost goes on by itself
+  std::string listen;             ///< "tcp://HOST[:PORT]", beside the ipc socket; empty: not
+  std::string keys;               ///< folder of coupler.key_secret and the participants' NAME.key; empty: no keys
+  std::set<std::string> awaited;  ///< participants that somebody else starts
 };
 
 /// Exit code of a completed, or cleanly interrupted, run: 0, 128 + signal, 124 when the wall limit was reached. Throws

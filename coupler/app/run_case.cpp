@@ -59,6 +59,7 @@ struct Orders {
   int n_threads = 0, n_restarts = 0;
   bool record = false;  ///< every frame
   int n_failures = 0;   ///< since the last checkpoint
+  proto::Door door;     ///< for participants that are awaited
   std::optional<Clock::time_point> deadline;
   std::optional<Checkpoint> set;  ///< to go on from
   std::set<std::string> allowed;  ///< to differ from what made it
@@ -97,7 +98,7 @@ bool may_pass(const ParticipantError& error) {
 
 int run_guarded(const CaseInput& input, const RunFolder& folder, spdlog::logger& log, Summary& summary,
                 StatusFile& status, Orders& orders) {
-  CoupledRun run(input, folder, log, summary, status);
+  CoupledRun run(input, folder, log, summary, status, orders.door);
   const auto give_up = [&](const Failure& failure) {
     summary.failure = failure;
     run.abandon(failure.exit_code, failure.message);
@@ -194,7 +195,9 @@ int run_in(const CaseInput& input, const RunFolder& folder, const Orders& orders
 }
 
 /// What the command line says in place of the case.
-void apply(const RunOptions& options, proto::Coupling& coupling) {
+void apply(const RunOptions& options, CaseInput& input) {
+  auto& coupling = input.coupling;
+  input.awaited = options.awaited;
   use_programs(coupling, options.fem, options.qdem);
   if (!options.scheme.empty()) coupling.scheme = proto::scheme_of(options.scheme);
   if (const auto why = proto::why_no_switch(coupling); !why.empty())
@@ -209,6 +212,7 @@ void apply(const RunOptions& options, proto::Coupling& coupling) {
 
 Orders orders_of(const RunOptions& options) {
   Orders orders;
+  orders.door = proto::make_door(options.listen, options.keys, options.awaited);
   orders.n_threads = options.n_threads;
   orders.n_restarts = options.n_restarts;
   orders.record = options.record;
@@ -224,7 +228,7 @@ Orders orders_of(const RunOptions& options) {
 int run_case(const RunOptions& options) {
   auto orders = orders_of(options);
   auto input = read_case(options.case_path);
-  apply(options, input.coupling);
+  apply(options, input);
   find_participants(input);  // before a folder is made for a run that cannot start
   const RunFolder folder(options.out, input.file.name());
   proto::write_text_file(folder.file("case.toml"), input.file.text());
@@ -235,7 +239,7 @@ int resume_run(const RunOptions& options) {
   auto orders = orders_of(options);
   const auto folder = RunFolder::reopen(options.resume);
   auto [input, set] = find_resumption(folder, options.case_path, options.allowed);
-  apply(options, input.coupling);
+  apply(options, input);
   find_participants(input);
   proto::write_text_file(folder.file("case.toml"), input.file.text());
   orders.set = std::move(set);

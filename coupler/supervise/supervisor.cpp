@@ -49,6 +49,11 @@ void Supervisor::add(const std::string& name, const std::string& program, const 
   known_[name].log_path = log_path;
 }
 
+void Supervisor::expect(const std::string& name, const std::string& address) {
+  known_[name].program = "awaited at " + address;
+  known_[name].awaited = true;
+}
+
 std::uint64_t Supervisor::send(const std::string& name, proto::Body body) {
   try {
     return endpoint_.send(name, std::move(body));
@@ -73,6 +78,7 @@ void Supervisor::pump(double timeout_s) {
 
 void Supervisor::take(const proto::EndpointEvent& event) {
   if (event.participant.empty()) {
+    if (tell_turned_away_ && event.problem != turned_away_) tell_turned_away_(event.problem);
     turned_away_ = event.problem;
     return;
   }
@@ -105,6 +111,10 @@ void Supervisor::check_exits() {
   }
 }
 
+std::string Supervisor::where_to_look(const Known& known) const {
+  return known.awaited ? "see what it wrote where it was started" : "see " + known.log_path;
+}
+
 void Supervisor::report_death(const std::string& name, const ChildExit& exit) {
   // A fault it sent before it went says more than its exit code; take() throws it.
   const auto start = Clock::now();
@@ -130,14 +140,15 @@ void Supervisor::report_death(const std::string& name, const ChildExit& exit) {
 void Supervisor::report_loss(const proto::EndpointEvent& event) {
   // A lost connection is mostly the shadow of an exit that the kernel is about to report.
   const auto start = Clock::now();
-  while (event.code == static_cast<int>(ExitCode::unavailable) && seconds_since(start) < 1.0) {
+  const auto& known = known_.at(event.participant);
+  const bool may_have_exited = !known.awaited && event.code == static_cast<int>(ExitCode::unavailable);
+  while (may_have_exited && seconds_since(start) < 1.0) {
     children_.wait(0.05);
     if (const auto exit = children_.exit_of(event.participant)) return report_death(event.participant, *exit);
   }
-  const auto& known = known_.at(event.participant);
   throw ParticipantError(event.participant, run_code(event.code),
                          fmt::format("{} ({}): {}", event.participant, known.program, event.problem), stage_,
-                         "see " + known.log_path);
+                         where_to_look(known));
 }
 
 void Supervisor::check_pulse(const std::string& name, bool set_up, double waited_s) {
@@ -145,11 +156,11 @@ void Supervisor::check_pulse(const std::string& name, bool set_up, double waited
   const auto& known = known_.at(name);
   const double still_s = set_up ? pulse.silent_s : pulse.progress_age_s;
   if (still_s > patience_.stall_s)
-    throw ParticipantError(
-        name, ExitCode::unavailable,
-        fmt::format("{} ({}) hangs: its process {} is alive, but {} for {:.0f} s", name, known.program,
-                    children_.pid_of(name), set_up ? "gave no sign of life" : "made no progress", still_s),
-        stage_, "raise coupling.stall_timeout_s if it was only slow");
+    throw ParticipantError(name, ExitCode::unavailable,
+                           fmt::format("{} ({}) hangs: its process{} is alive, but {} for {:.0f} s", name,
+                                       known.program, known.awaited ? "" : fmt::format(" {}", children_.pid_of(name)),
+                                       set_up ? "gave no sign of life" : "made no progress", still_s),
+                           stage_, "raise coupling.stall_timeout_s if it was only slow");
   if (set_up && waited_s > patience_.set_up_s)
     throw ParticipantError(name, ExitCode::unavailable,
                            fmt::format("{} ({}) was not ready after {:.0f} s", name, known.program, waited_s), stage_);
@@ -215,6 +226,7 @@ std::vector<proto::Fact> Supervisor::finish() {
   }
   while (children_.running() && seconds_since(start) < patience_.farewell_s) children_.wait(slice_s);
   for (const auto& [name, known] : known_) {
+    if (known.awaited) continue;
     const auto exit = children_.exit_of(name);
     if (!exit)
       throw ParticipantError(name, ExitCode::unavailable,

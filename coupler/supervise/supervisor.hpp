@@ -56,6 +56,8 @@ class Supervisor {
 
   /// Names a participant that was started.
   void add(const std::string& name, const std::string& program, const std::string& log_path);
+  /// Names a participant that somebody else starts and that connects to `address`: it has no process here to watch.
+  void expect(const std::string& name, const std::string& address);
 
   /// What the run is doing, for messages: "window 37".
   void set_stage(std::string stage) { stage_ = std::move(stage); }
@@ -69,6 +71,9 @@ class Supervisor {
   /// Is told every ten seconds of a set-up what is waited for and what that participant wrote last.
   void on_long_set_up(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
 
+  /// Is told of everybody whom the endpoint turns away; the same text in a row once.
+  void on_turned_away(std::function<void(const std::string&)> tell) { tell_turned_away_ = std::move(tell); }
+
   /// Waits for the Hello of every participant.
   std::map<std::string, proto::Hello> await_hellos();
 
@@ -81,7 +86,8 @@ class Supervisor {
   template <class T>
   T await(const std::string& name, std::uint64_t in_reply_to, bool set_up = false);
 
-  /// Sends Finish to all, waits for every Bye and for every process to exit with code 0. Facts in order of name.
+  /// Sends Finish to all, waits for every Bye and for every process that was started here to exit with code 0. Facts
+  /// in order of name.
   std::vector<proto::Fact> finish();
 
   /// Tells the participants that the run failed and gives them a moment to go by themselves.
@@ -94,7 +100,8 @@ class Supervisor {
 
  private:
   struct Known {
-    std::string program, log_path;
+    std::string program, log_path;  ///< of one that is awaited: where it is awaited, none
+    bool awaited = false;
     bool connected = false, finished = false;
     proto::Hello hello;
     std::deque<proto::Message> inbox;
@@ -103,6 +110,7 @@ class Supervisor {
   void take(const proto::EndpointEvent& event);
   void check_signals() const;
   void check_exits();
+  std::string where_to_look(const Known& known) const;
   void report_death(const std::string& name, const ChildExit& exit);
   void report_loss(const proto::EndpointEvent& event);
   void check_pulse(const std::string& name, bool set_up, double waited_s);
@@ -114,7 +122,7 @@ class Supervisor {
   Patience patience_;
   std::map<std::string, Known> known_;
   std::string stage_ = "start-up", turned_away_;
-  std::function<void(const std::string&)> tell_;
+  std::function<void(const std::string&)> tell_, tell_turned_away_;
   bool interruptible_ = true;
   double waited_s_ = 0.0;
 };

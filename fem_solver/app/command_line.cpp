@@ -14,9 +14,12 @@ int run(int argc, char** argv, const FemProgram& program) {
   CLI::App app(program.description, program.name);
   app.require_subcommand(1);
   std::string path, endpoint, name = "fem", out = ".";
+  proto::KeyFiles keys;
   auto* participant = app.add_subcommand("participant", "take part in a coupled run; started by the coupler");
   participant->add_option("--case", path, "case file")->required();
   participant->add_option("--endpoint", endpoint, "where the coupler listens")->required();
+  participant->add_option("--server-key", keys.server, "public key of a coupler on another machine");
+  participant->add_option("--key", keys.own, "own secret key");
   participant->add_option("--out", out, "output folder");
   participant->add_option("--name", name, "name in the session");
   auto* check = app.add_subcommand("check", "validate the case's FEM sections and the rail without running");
@@ -29,6 +32,7 @@ int run(int argc, char** argv, const FemProgram& program) {
   auto* contact = app.add_subcommand("contact", "one contact of wheel and rail: patch, stick and slip, creep forces");
   contact->add_option("case", path, "case file with [contact]")->required();
   contact->add_option("--out", out, "output folder; must exist");
+  auto* schema = app.add_subcommand("schema", "print the JSON Schema of the case's FEM sections");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -39,6 +43,10 @@ int run(int argc, char** argv, const FemProgram& program) {
     run_contact(path, program.name, program.blocks, out);
     return 0;
   }
+  if (schema->parsed()) {
+    std::printf("%s\n", fem_schema().c_str());
+    return 0;
+  }
   auto input = read_fem_case(path);
   if (check->parsed()) {
     check_case(input, program.build);
@@ -47,7 +55,7 @@ int run(int argc, char** argv, const FemProgram& program) {
   } else if (alone->parsed()) {
     run_alone(input, program.build, program.name, out);
   } else {
-    const auto options = proto::read_session_options(endpoint, input.file.hash());
+    const auto options = proto::read_session_options(endpoint, input.file.hash(), keys);
     FemParticipant body(std::move(input), program.name, name, program.build);
     proto::serve(body, options);
   }

@@ -1,6 +1,7 @@
 #include "fem_solver/model/settings.hpp"
 
 #include "fem_solver/model/rail_section.hpp"
+#include "proto/case/case_schema.hpp"
 #include "proto/case/track.hpp"
 
 namespace fem {
@@ -95,6 +96,11 @@ WheelSettings read_wheel(const proto::CaseFile& file, const Material& rail) {
   w.longest_contact_loss = section.number_or("longest_contact_loss_s", w.longest_contact_loss, Range::positive());
   section.finish();
   return w;
+}
+
+std::string fem_schema() {
+  return proto::case_schema({[](const proto::CaseFile& file) { read_fem(file, proto::read_rail_seats(file)); },
+                             [](const proto::CaseFile& file) { read_wheel(file, {}); }});
 }
 
 }  // namespace fem

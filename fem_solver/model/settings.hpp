@@ -66,4 +66,7 @@ FemSettings read_fem(const proto::CaseFile& file, const std::vector<proto::RailS
 /// depth_m, length_m, position_m | amplitude_m, wavelength_m, begin_m | file.
 WheelSettings read_wheel(const proto::CaseFile& file, const Material& rail);
 
+/// JSON Schema of all that these two read.
+std::string fem_schema();
+
 }  // namespace fem

@@ -93,7 +93,7 @@ class CaseFile {
   Section section(const std::string& name) const;
   std::vector<Section> sections(const std::string& name) const;
 
-  const std::string& path() const;  ///< absolute
+  const std::string& path() const;  ///< absolute; "" of one that is no file
   const std::string& text() const;  ///< the file's bytes, kept for the record
   std::string name() const;         ///< folder name of `case.toml`, else the file's stem
   std::uint64_t hash() const;       ///< XXH3-64 of the bytes
@@ -106,6 +106,7 @@ class CaseFile {
   void refuse_unknown_sections(const std::vector<std::string>& known) const;
 
  private:
+  friend class Probe;
   explicit CaseFile(std::shared_ptr<Section::Data> root);
   std::shared_ptr<Section::Data> root_;
 };

@@ -14,7 +14,16 @@ std::optional<NodeReader> offered(Section::Data& data, const std::string& key) {
   return NodeReader(data, *node, key);
 }
 
-NodeReader required(Section::Data& data, const std::string& key) {
+/// The same for a key of which it is known what it must be.
+template <class MakeSchema>
+std::optional<NodeReader> optional(Section::Data& data, const std::string& key, MakeSchema schema) {
+  data.note(key, false, schema);
+  return offered(data, key);
+}
+
+template <class MakeSchema>
+NodeReader required(Section::Data& data, const std::string& key, MakeSchema schema) {
+  data.note(key, true, schema);
   if (const auto reader = offered(data, key)) return *reader;
   std::vector<std::string> unread;  // a misspelt key is among those that nobody has asked for
   if (data.table)
@@ -34,9 +43,9 @@ void check_length(const Section& section, const std::string& key, std::size_t fo
 }  // namespace
 
 std::string Section::Data::where(const toml::source_region& region, const std::string& key) const {
-  std::string place = document->path;
-  if (region.begin.line) place += ":" + std::to_string(region.begin.line) + ":" + std::to_string(region.begin.column);
-  return place + ": " + full_name(key);
+  std::string text = document->path;
+  if (region.begin.line) text += ":" + std::to_string(region.begin.line) + ":" + std::to_string(region.begin.column);
+  return text + ": " + full_name(key);
 }
 
 std::string Section::Data::where(const std::string& key) const {
@@ -47,6 +56,7 @@ std::string Section::Data::where(const std::string& key) const {
 }
 
 std::shared_ptr<Section::Data> Section::Data::child(const std::string& key) {
+  note(key, false, [] { return type_schema("object"); });
   asked.insert(key);
   auto& entry = tables[key];
   if (entry) return entry;
@@ -58,10 +68,12 @@ std::shared_ptr<Section::Data> Section::Data::child(const std::string& key) {
   entry->document = document;
   entry->table = node ? node->as_table() : nullptr;
   entry->name = full_name(key);
+  entry->place = place_of(key);
   return entry;
 }
 
 const std::vector<std::shared_ptr<Section::Data>>& Section::Data::children(const std::string& key) {
+  note(key, false, [] { return list_schema(type_schema("object")); });
   asked.insert(key);
   auto& entries = arrays[key];
   const auto* node = find(key);
@@ -74,6 +86,7 @@ const std::vector<std::shared_ptr<Section::Data>>& Section::Data::children(const
     entries.back()->document = document;
     entries.back()->table = element.as_table();
     entries.back()->name = full_name(key);
+    entries.back()->place = place_of(key) + "[" + std::to_string(entries.size() - 1) + "]";
   }
   return entries;
 }
@@ -81,72 +94,76 @@ const std::vector<std::shared_ptr<Section::Data>>& Section::Data::children(const
 Section::Section(std::shared_ptr<Data> data) : data_(std::move(data)) {}
 
 bool Section::has(const std::string& key) const {
-  return offered(*data_, key).has_value();
+  return optional(*data_, key, [] { return Schema::object(); }).has_value();
 }
 
 double Section::number(const std::string& key, Range range) const {
-  return required(*data_, key).number(range);
+  return required(*data_, key, [&] { return number_schema(range); }).number(range);
 }
 
 double Section::number_or(const std::string& key, double fallback, Range range) const {
-  const auto reader = offered(*data_, key);
+  const auto reader = optional(*data_, key, [&] { return with_default(number_schema(range), fallback); });
   return reader ? reader->number(range) : fallback;
 }
 
 std::int64_t Section::integer(const std::string& key, Range range) const {
-  return required(*data_, key).integer(range);
+  return required(*data_, key, [&] { return integer_schema(range); }).integer(range);
 }
 
 std::int64_t Section::integer_or(const std::string& key, std::int64_t fallback, Range range) const {
-  const auto reader = offered(*data_, key);
+  const auto reader = optional(*data_, key, [&] { return with_default(integer_schema(range), fallback); });
   return reader ? reader->integer(range) : fallback;
 }
 
 bool Section::boolean_or(const std::string& key, bool fallback) const {
-  const auto reader = offered(*data_, key);
+  const auto reader = optional(*data_, key, [&] { return with_default(type_schema("boolean"), fallback); });
   return reader ? reader->boolean() : fallback;
 }
 
 std::string Section::text(const std::string& key) const {
-  return required(*data_, key).text();
+  return required(*data_, key, [] { return text_schema(); }).text();
 }
 
 std::string Section::text_or(const std::string& key, const std::string& fallback) const {
-  const auto reader = offered(*data_, key);
+  const auto reader = optional(*data_, key, [&] { return with_default(text_schema(), fallback); });
   return reader ? reader->text() : fallback;
 }
 
 std::string Section::choice(const std::string& key, const std::vector<std::string>& choices) const {
-  return required(*data_, key).choice(choices);
+  return required(*data_, key, [&] { return text_schema(choices); }).choice(choices);
 }
 
 std::string Section::choice_or(const std::string& key, const std::string& fallback,
                                const std::vector<std::string>& choices) const {
-  const auto reader = offered(*data_, key);
+  const auto reader = optional(*data_, key, [&] { return with_default(text_schema(choices), fallback); });
   return reader ? reader->choice(choices) : fallback;
 }
 
 std::vector<double> Section::numbers(const std::string& key, std::size_t length, Range range) const {
   const auto read = [&](const NodeReader& element) { return element.number(range); };
-  const auto values = required(*data_, key).elements(read, "numbers");
+  const auto reader = required(*data_, key, [&] { return list_schema(number_schema(range), length); });
+  const auto values = reader.elements(read, "numbers");
   check_length(*this, key, values.size(), length);
   return values;
 }
 
 std::vector<double> Section::numbers_or(const std::string& key, const std::vector<double>& fallback,
                                         Range range) const {
-  return has(key) ? numbers(key, 0, range) : fallback;
+  const auto read = [&](const NodeReader& element) { return element.number(range); };
+  const auto reader = optional(*data_, key, [&] { return with_default(list_schema(number_schema(range)), fallback); });
+  return reader ? reader->elements(read, "numbers") : fallback;
 }
 
 std::vector<std::int64_t> Section::integers(const std::string& key, std::size_t length, Range range) const {
   const auto read = [&](const NodeReader& element) { return element.integer(range); };
-  const auto values = required(*data_, key).elements(read, "whole numbers");
+  const auto reader = required(*data_, key, [&] { return list_schema(integer_schema(range), length); });
+  const auto values = reader.elements(read, "whole numbers");
   check_length(*this, key, values.size(), length);
   return values;
 }
 
 std::vector<std::string> Section::texts_or(const std::string& key, const std::vector<std::string>& fallback) const {
-  const auto reader = offered(*data_, key);
+  const auto reader = optional(*data_, key, [&] { return with_default(list_schema(text_schema()), fallback); });
   if (!reader) return fallback;
   return reader->elements([](const NodeReader& element) { return element.text(); }, "texts");
 }
@@ -173,6 +190,7 @@ std::vector<Section> Section::sections(const std::string& key) const {
 }
 
 void Section::finish() const {
+  if (data_->document->notes) return;  // a made-up case may hold keys that another choice needs
   if (data_->table) {
     for (const auto& item : *data_->table) {
       const std::string key(item.first.str());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "proto/case/case_file.hpp"
+#include "proto/case/key_schema.hpp"
 
 namespace proto {
 
@@ -18,12 +19,14 @@ struct CaseDocument {
   std::string folder;  ///< that relative paths start from, absolute
   std::string text;
   toml::table root;
+  std::vector<KeyNote>* notes = nullptr;  ///< takes every question that is asked; null: nobody wants to know
 };
 
 struct Section::Data {
   std::shared_ptr<const CaseDocument> document;
   const toml::table* table = nullptr;  ///< null: the file has no such section
   std::string name;                    ///< dotted path from the root, "" for the root itself
+  std::string place;                   ///< the same with the index of every element of an array of tables
 
   std::set<std::string> asked;  ///< every key that somebody read or offered to read
   std::map<std::string, std::shared_ptr<Data>> tables;
@@ -33,6 +36,12 @@ struct Section::Data {
   /// Sub-table `key`, made on the first request and shared by later ones.
   std::shared_ptr<Data> child(const std::string& key);
   const std::vector<std::shared_ptr<Data>>& children(const std::string& key);
+  /// To be called before the value is looked at. `schema` makes the words, if they are wanted.
+  template <class MakeSchema>
+  void note(const std::string& key, bool required, MakeSchema schema) const {
+    if (document->notes) document->notes->push_back({place, key, schema(), required});
+  }
+  std::string place_of(const std::string& key) const { return place.empty() ? key : place + "." + key; }
   std::string full_name(const std::string& key) const { return name.empty() ? key : name + "." + key; }
   /// "FILE:LINE:COLUMN: section.key"; without line and column where `region` has none.
   std::string where(const toml::source_region& region, const std::string& key) const;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "proto/case/case_schema.hpp"
 #include "proto/case/rail_seat.hpp"
 #include "proto/result/state_file.hpp"
 #include "proto/session/participant.hpp"
@@ -344,11 +345,15 @@ int run(int argc, char** argv) {
   CLI::App app("One side of the split oscillator (cases/split_oscillator).", "oscillator_participant");
   app.require_subcommand(1);
   std::string path, side, endpoint, out, name;
+  KeyFiles keys;
   auto* check = app.add_subcommand("check", "validate the case without running it");
   auto* participant = app.add_subcommand("participant", "take part in a coupled run; started by the coupler");
+  auto* schema = app.add_subcommand("schema", "print the JSON Schema of the sections that it reads");
   for (auto* command : {check, participant}) command->add_option("--case", path, "case file")->required();
   participant->add_option("--side", side, "which mass")->required()->check(CLI::IsMember({"explicit", "implicit"}));
   participant->add_option("--endpoint", endpoint, "where the coupler listens")->required();
+  participant->add_option("--server-key", keys.server, "public key of a coupler on another machine");
+  participant->add_option("--key", keys.own, "own secret key");
   participant->add_option("--out", out, "output folder (nothing is written)");
   participant->add_option("--name", name, "name in the session")->required();
   try {
@@ -356,10 +361,15 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
   }
+  if (schema->parsed()) {
+    std::printf("%s\n",
+                case_schema({[](const CaseFile& any) { read_case(any); }}, "rail_seat = [{cells = [1, 1]}]").c_str());
+    return 0;
+  }
   const auto file = CaseFile::load(path);
   const auto input = read_case(file);
   if (check->parsed()) return 0;
-  const auto options = read_session_options(endpoint, file.hash());
+  const auto options = read_session_options(endpoint, file.hash(), keys);
   if (side == "explicit") {
     ExplicitSide body(name, "oscillator.explicit", input.seat, input.explicit_side);
     serve(body, options);

@@ -15,6 +15,7 @@ void start_library() {
   static const bool started = [] {
     H5dont_atexit();
     H5open();
+    H5PLset_loading_state(0);  // a file may name a filter, and HDF5 would run it from any folder of its path
     return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
   }();
   static_cast<void>(started);

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
-#include <numeric>
 
 #include "proto/error.hpp"
+#include "proto/result/foreign_guard.hpp"
 #include "proto/result/hdf5_handle.hpp"
 
 namespace proto {
@@ -47,14 +46,20 @@ struct ResultReader::Data {
   [[noreturn]] void fail(const std::string& problem, const std::string& object) const {
     throw Error(ExitCode::bad_data, problem + " \"" + object + "\" in the result file", path);
   }
+  void require_within(const std::string& object) const {
+    if (!hdf5::lies_within(file.id(), object)) fail("no object, or a link to somewhere else,", object);
+  }
   Handle attribute(const std::string& object, const std::string& name) const {
+    require_within(object);
     Handle found(H5Aopen_by_name(file.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     if (!found) fail("no attribute", object + "@" + name);
     return found;
   }
   Handle dataset(const std::string& name) const {
+    require_within(name);
     Handle found(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
     if (!found) fail("no dataset", name);
+    if (const auto why = hdf5::why_not_read(found.id()); !why.empty()) fail(why + ": dataset", name);
     return found;
   }
 
@@ -67,12 +72,7 @@ ResultReader::ResultReader(ResultReader&&) noexcept = default;
 ResultReader::~ResultReader() = default;
 
 bool ResultReader::has(const std::string& object) const {
-  // H5Lexists wants every group on the way to be there.
-  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
-    const std::string part = object.substr(0, end);
-    if (part != "/" && H5Lexists(data_->file.id(), part.c_str(), H5P_DEFAULT) <= 0) return false;
-    if (end == std::string::npos) return true;
-  }
+  return hdf5::lies_within(data_->file.id(), object);
 }
 
 std::uint64_t ResultReader::n_committed(const std::string& group) const {
@@ -107,11 +107,16 @@ ResultArray ResultReader::read_rows(const std::string& dataset, std::uint64_t fi
   const Handle source = data_->dataset(dataset);
   auto dims = extents(source.id());
   if (!dims.empty()) {
-    if (first + n_rows > dims[0]) data_->fail("fewer rows than committed: dataset", dataset);
+    if (n_rows > dims[0] || first > dims[0] - n_rows) data_->fail("fewer rows than committed: dataset", dataset);
     dims[0] = n_rows;
   }
+  hsize_t n_values = 1;
+  for (const hsize_t extent : dims)
+    if (__builtin_mul_overflow(n_values, extent, &n_values)) data_->fail("no memory holds the dataset", dataset);
+  if (const auto why = hdf5::why_too_large(source.id(), n_values); !why.empty())
+    data_->fail(why + ": dataset", dataset);
   ResultArray array{{dims.begin(), dims.end()}, {}};
-  array.values.resize(std::accumulate(dims.begin(), dims.end(), std::size_t{1}, std::multiplies<>()));
+  array.values.resize(n_values);
   if (array.values.empty()) return array;
   const Handle target(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
   const Handle selected(H5Dget_space(source.id()), H5Sclose);
@@ -149,6 +154,7 @@ std::string ResultReader::text(const std::string& object, const std::string& att
 }
 
 std::vector<std::string> ResultReader::members(const std::string& group) const {
+  data_->require_within(group);
   const Handle source(H5Gopen2(data_->file.id(), group.c_str(), H5P_DEFAULT), H5Gclose);
   if (!source) data_->fail("no group", group);
   std::vector<std::string> names;

@@ -14,7 +14,9 @@ struct ResultArray {
   std::vector<double> values;
 };
 
-/// A result file opened for reading; only files written by this house are expected.
+/// A result file opened for reading. It may be somebody else's: links and datasets that lead out of the file, and sizes
+/// beyond what it holds, are refused (foreign_guard.hpp), and HDF5 loads no filter from a folder. HDF5 itself is not
+/// hardened against files made to break it.
 /// All functions throw proto::Error: missing_input (no such file), bad_data (no HDF5 file, no such object).
 class ResultReader {
  public:

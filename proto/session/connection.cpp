@@ -30,6 +30,7 @@ SocketSettings settings_of(const SessionOptions& options) {
 Connection::Connection(const SessionOptions& options, const Progress& progress)
     : options_(options),
       progress_(progress),
+      over_ipc_(options.endpoint.rfind("ipc://", 0) == 0),
       context_(make_context()),
       socket_(context_, zmq::socket_type::dealer),
       monitor_(context_, socket_),
@@ -43,6 +44,11 @@ Connection::Connection(const SessionOptions& options, const Progress& progress)
   socket_.set(zmq::sockopt::immediate, false);
   // Before the coupler is there we try again; once connected, a loss ends the session before a reconnection can.
   socket_.set(zmq::sockopt::reconnect_ivl, 200);
+  if (!options_.server_key.empty()) {
+    socket_.set(zmq::sockopt::curve_serverkey, options_.server_key);
+    socket_.set(zmq::sockopt::curve_publickey, options_.key.public_key);
+    socket_.set(zmq::sockopt::curve_secretkey, options_.key.secret_key);
+  }
   try {
     socket_.connect(options_.endpoint);
   } catch (const zmq::error_t& error) {
@@ -110,9 +116,10 @@ void Connection::run() {
 
 /// One turn of the communication thread: false at the end of the session.
 bool Connection::turn() {
-  zmq::pollitem_t items[] = {{socket_.handle(), 0, static_cast<short>(ZMQ_POLLIN | (blocked_ ? ZMQ_POLLOUT : 0)), 0},
-                             {monitor_.handle(), 0, ZMQ_POLLIN, 0},
-                             {nullptr, wake_fd_, ZMQ_POLLIN, 0}};
+  std::vector<zmq::pollitem_t> items{
+      {socket_.handle(), 0, static_cast<short>(ZMQ_POLLIN | (blocked_ ? ZMQ_POLLOUT : 0)), 0},
+      {monitor_.handle(), 0, ZMQ_POLLIN, 0},
+      {nullptr, wake_fd_, ZMQ_POLLIN, 0}};
   poll_sockets(items, nap());
   std::uint64_t ignored;
   [[maybe_unused]] const auto taken = read(wake_fd_, &ignored, sizeof ignored);
@@ -120,6 +127,9 @@ bool Connection::turn() {
   watch_connection();
   try {
     take_frames();
+    if (!refusal_.empty())
+      throw Error(ExitCode::protocol, "the connection was refused: " + refusal_, options_.endpoint,
+                  "see --key and --server-key");
     if (lost_ && !finished_) throw Error(ExitCode::unavailable, "the coupler is gone", options_.endpoint);
     if (!session_ && Clock::now() > connect_deadline_)
       throw Error(ExitCode::unavailable, "no coupler answered in time", options_.endpoint, "is it running?");
@@ -142,9 +152,14 @@ std::chrono::milliseconds Connection::nap() const {
 
 void Connection::watch_connection() {
   while (const auto event = monitor_.next()) {
-    const bool handshake_failed = event->kind & (ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL |
-                                                 ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_AUTH);
-    lost_ = lost_ || handshake_failed || event->kind == ZMQ_EVENT_DISCONNECTED;
+    lost_ = lost_ || event->kind == ZMQ_EVENT_DISCONNECTED;
+    if (event->kind == ZMQ_EVENT_HANDSHAKE_FAILED_AUTH)
+      refusal_ = "the coupler does not know this key";
+    else if (event->kind == ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL)
+      refusal_ = options_.key.public_key.empty() ? "the coupler asks for a key" : "the coupler takes no keys";
+    else if (event->kind == ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL && !over_ipc_)
+      refusal_ = options_.key.public_key.empty() ? "it ended in its handshake, as it does where a key is asked for"
+                                                 : "it ended in its handshake, as it does with another coupler's key";
   }
 }
 

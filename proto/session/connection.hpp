@@ -71,6 +71,7 @@ class Connection {
 
   const SessionOptions options_;
   const Progress& progress_;
+  const bool over_ipc_;  ///< where nobody is refused: a connection that ends lost its coupler
 
   // Owned by the communication thread once it runs.
   zmq::context_t context_;
@@ -80,6 +81,7 @@ class Connection {
   std::uint64_t session_ = 0, sent_ = 0, received_ = 0;
   double heartbeat_s_ = 1.0;
   bool blocked_ = false, lost_ = false, finished_ = false;
+  std::string refusal_;  ///< why the connection was not made
   std::optional<Request> last_advance_;
   std::optional<Outgoing> last_result_;
 

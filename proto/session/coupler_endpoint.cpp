@@ -7,6 +7,7 @@
 
 #include "proto/clock.hpp"
 #include "proto/error.hpp"
+#include "proto/session/gatekeeper.hpp"
 #include "proto/session/handshake.hpp"
 #include "proto/session/run_directory.hpp"
 #include "proto/session/sockets.hpp"
@@ -33,6 +34,20 @@ struct Peer {
   Heartbeat beat{-1, 0};
 };
 
+/// The name that goes with the key of the connection a frame came by; "" without a key.
+std::string key_name(zmq::message_t& frame) {
+  const char* name = zmq_msg_gets(frame.handle(), "User-Id");
+  return name ? name : "";
+}
+
+/// What a connection that was given up before its first message lacked.
+std::string failure_in_words(const SocketMonitor::Event& event) {
+  if (event.kind != ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL) return "it ended in its handshake, as one without a key does";
+  if (event.value == ZMQ_PROTOCOL_ERROR_ZMTP_MECHANISM_MISMATCH) return "it shows no key";
+  if (event.value == ZMQ_PROTOCOL_ERROR_ZMTP_CRYPTOGRAPHIC) return "it was made for another coupler's key";
+  return "it does not speak the protocol";
+}
+
 /// File descriptor of the connection a frame came by, or -1.
 int connection_of(zmq::message_t& frame) {
   return zmq_msg_get(frame.handle(), ZMQ_SRCFD);
@@ -41,7 +56,7 @@ int connection_of(zmq::message_t& frame) {
 }  // namespace
 
 struct CouplerEndpoint::Data {
-  Data(const std::string& directory, std::size_t largest_message_bytes, Admission who)
+  Data(const std::string& directory, std::size_t largest_message_bytes, Admission who, const Door& door)
       : admission(std::move(who)),
         run_directory(directory),
         token(random_token()),
@@ -56,12 +71,19 @@ struct CouplerEndpoint::Data {
     socket.set(zmq::sockopt::router_mandatory, true);
     socket.set(zmq::sockopt::router_handover, false);  // ids are the socket's own; a name is taken over by nobody
     address = "ipc://" + run_directory.socket_path();
+    bind(address);
+    if (!door.address.empty()) open(door);
+  }
+
+  void bind(const std::string& where) {
     try {
-      socket.bind(address);
+      socket.bind(where);
     } catch (const zmq::error_t& error) {
-      throw Error(ExitCode::cannot_create, std::string("the socket cannot be bound: ") + error.what(), address);
+      throw Error(ExitCode::cannot_create, std::string("the socket cannot be bound: ") + error.what(), where);
     }
   }
+
+  void open(const Door& door);
 
   Peer* by_name(const std::string& name) {
     for (auto& [id, peer] : peers)
@@ -81,10 +103,10 @@ struct CouplerEndpoint::Data {
     if (observer) observer(peer.name, true, frame);
   }
 
-  void note_connections();
+  void note_connections(std::vector<EndpointEvent>& events);
   void report_lost(std::vector<EndpointEvent>& events);
   bool receive_one(std::vector<EndpointEvent>& events);
-  void admit(const std::string& id, int fd, const Message& message, std::vector<EndpointEvent>& events);
+  void admit(const std::string& id, zmq::message_t& frame, const Message& message, std::vector<EndpointEvent>& events);
   void take(Peer& peer, Message message, std::vector<EndpointEvent>& events);
   void mark_broken(Peer& peer, ExitCode code, const std::string& problem, std::vector<EndpointEvent>& events);
   bool transmit(const std::string& id, Span<const std::uint8_t> frame);
@@ -92,17 +114,35 @@ struct CouplerEndpoint::Data {
   Admission admission;
   Observer observer;
   RunDirectory run_directory;
-  std::string address, token;
+  std::string address, door_address, token;
   std::uint64_t session;
   zmq::context_t context;
   zmq::socket_t socket;
   SocketMonitor monitor;
+  std::optional<Gatekeeper> gatekeeper;
   std::map<std::string, Peer> peers;  ///< by routing id
   std::set<int> closed;               ///< connections that ended and whose descriptor was not used again
 };
 
-/// Follows the monitor: which descriptors are closed now.
-void CouplerEndpoint::Data::note_connections() {
+/// Binds the door's address. Options hold for what is bound after them: the ipc socket stays without keys.
+void CouplerEndpoint::Data::open(const Door& door) {
+  if (!door.key.secret_key.empty()) {
+    gatekeeper.emplace(context, door.allowed);
+    socket.set(zmq::sockopt::zap_domain, "coupler");
+    socket.set(zmq::sockopt::curve_server, true);
+    socket.set(zmq::sockopt::curve_secretkey, door.key.secret_key);
+  }
+  bind(door.address);
+  door_address = socket.get(zmq::sockopt::last_endpoint);
+}
+
+/// Follows the monitor: which descriptors are closed now, and who did not get through the handshake.
+void CouplerEndpoint::Data::note_connections(std::vector<EndpointEvent>& events) {
+  const auto turn_away = [&](const std::string& problem) {
+    events.push_back({"", {}, problem, static_cast<int>(ExitCode::protocol)});
+  };
+  if (gatekeeper)
+    for (const auto& problem : gatekeeper->answer()) turn_away(problem);
   while (const auto event = monitor.next()) {
     if (event->kind == ZMQ_EVENT_ACCEPTED) {
       // The descriptor is reused: the peer that had it must not be taken for this connection.
@@ -111,6 +151,8 @@ void CouplerEndpoint::Data::note_connections() {
       closed.erase(event->value);
     } else if (event->kind == ZMQ_EVENT_DISCONNECTED) {
       closed.insert(event->value);
+    } else if (event->kind & (ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL)) {
+      turn_away("a connection was refused: " + failure_in_words(*event));
     }
   }
 }
@@ -157,9 +199,9 @@ bool CouplerEndpoint::Data::receive_one(std::vector<EndpointEvent>& events) {
   try {
     if (!well_formed) throw Error(ExitCode::protocol, "a message is one frame");
     auto message = decode(bytes);
-    note_connections();
+    note_connections(events);
     if (found == peers.end())
-      admit(id, connection_of(frame), message, events);
+      admit(id, frame, message, events);
     else
       take(found->second, std::move(message), events);
   } catch (const Error& error) {
@@ -171,13 +213,15 @@ bool CouplerEndpoint::Data::receive_one(std::vector<EndpointEvent>& events) {
   return true;
 }
 
-void CouplerEndpoint::Data::admit(const std::string& id, int fd, const Message& message,
+void CouplerEndpoint::Data::admit(const std::string& id, zmq::message_t& frame, const Message& message,
                                   std::vector<EndpointEvent>& events) {
   std::vector<std::string> taken;
   for (const auto& [other, peer] : peers) taken.push_back(peer.name);
   const auto* hello = std::get_if<Hello>(&message.body);
-  const std::string reason = hello ? why_not_welcome(*hello, admission, token, taken)
-                                   : std::string("the first message must be Hello, not ") + name_of(message.body);
+  std::string reason = hello ? why_not_welcome(*hello, admission, token, taken)
+                             : std::string("the first message must be Hello, not ") + name_of(message.body);
+  const auto key = key_name(frame);
+  if (reason.empty() && !key.empty() && key != hello->name) reason = "its key is that of '" + key + "'";
   if (!reason.empty()) {
     transmit(id, encode({0, 1, message.sequence, Reject{reason}}));
     const std::string who = hello ? "'" + hello->name + "'" : "a stranger";
@@ -187,7 +231,7 @@ void CouplerEndpoint::Data::admit(const std::string& id, int fd, const Message& 
   Peer peer;
   peer.name = hello->name;
   peer.routing_id = id;
-  peer.fd = fd;
+  peer.fd = connection_of(frame);
   peer.received = message.sequence;
   peer.sent = 1;
   if (!transmit(id, encode({session, peer.sent, message.sequence, Welcome{session, admission.heartbeat_s}})))
@@ -215,13 +259,17 @@ void CouplerEndpoint::Data::take(Peer& peer, Message message, std::vector<Endpoi
   events.push_back({peer.name, std::move(message), "", 0});
 }
 
-CouplerEndpoint::CouplerEndpoint(const std::string& directory, std::size_t largest_message_bytes, Admission admission)
-    : data_(std::make_unique<Data>(directory, largest_message_bytes, std::move(admission))) {}
+CouplerEndpoint::CouplerEndpoint(const std::string& directory, std::size_t largest_message_bytes, Admission admission,
+                                 const Door& door)
+    : data_(std::make_unique<Data>(directory, largest_message_bytes, std::move(admission), door)) {}
 
 CouplerEndpoint::~CouplerEndpoint() = default;
 
 const std::string& CouplerEndpoint::address() const {
   return data_->address;
+}
+const std::string& CouplerEndpoint::door_address() const {
+  return data_->door_address;
 }
 const std::string& CouplerEndpoint::session_token() const {
   return data_->token;
@@ -235,17 +283,18 @@ std::vector<EndpointEvent> CouplerEndpoint::wait(double timeout_s, int extra_fd)
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
   std::vector<EndpointEvent> events;
   while (true) {
-    data_->note_connections();
+    data_->note_connections(events);
     for (int n = 0; n < most_frames_at_once && data_->receive_one(events); ++n) {
     }
     data_->report_lost(events);
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
     if (!events.empty() || left.count() <= 0) return events;
-    zmq::pollitem_t items[] = {{data_->socket.handle(), 0, ZMQ_POLLIN, 0},
-                               {data_->monitor.handle(), 0, ZMQ_POLLIN, 0},
-                               {nullptr, extra_fd, ZMQ_POLLIN | ZMQ_POLLERR, 0}};
-    poll_sockets(items, left, extra_fd >= 0 ? 3 : 2);
-    if (extra_fd >= 0 && items[2].revents) return events;
+    std::vector<zmq::pollitem_t> items{{data_->socket.handle(), 0, ZMQ_POLLIN, 0},
+                                       {data_->monitor.handle(), 0, ZMQ_POLLIN, 0}};
+    if (data_->gatekeeper) items.push_back({data_->gatekeeper->handle(), 0, ZMQ_POLLIN, 0});
+    if (extra_fd >= 0) items.push_back({nullptr, extra_fd, ZMQ_POLLIN | ZMQ_POLLERR, 0});
+    poll_sockets(items, left);
+    if (extra_fd >= 0 && items.back().revents) return events;
   }
 }
 

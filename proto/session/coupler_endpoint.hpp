@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "proto/session/door.hpp"
 #include "proto/span.hpp"
 #include "proto/wire/messages.hpp"
 
@@ -41,19 +42,24 @@ struct Admission {
   double heartbeat_s = 1.0;        ///< interval that participants are told
 };
 
-/// ROUTER bound to an ipc path in `directory`. Not thread safe: one thread uses it.
+/// ROUTER bound to an ipc path in `directory`, and to a door's address. Not thread safe: one thread uses it.
 class CouplerEndpoint {
  public:
   /// Binds `directory`/coupler. The directory is created with mode 0700 (its parent must exist); one that exists must
   /// belong to this user with mode 0700. It must be short: the socket's path has to stay below 108 bytes.
   /// `largest_message_bytes` (at least 1 MiB is used): a sender of more is cut off.
-  /// Throws proto::Error (cannot_create) when the path is too long or cannot be bound.
-  CouplerEndpoint(const std::string& directory, std::size_t largest_message_bytes, Admission admission = {});
+  /// Through a door with a key come only connections encrypted by CURVE whose key is allowed; such a participant must
+  /// have the name of its key. An ipc connection needs none: the directory's mode says who may.
+  /// Throws proto::Error (cannot_create) when the path is too long or an address cannot be bound.
+  CouplerEndpoint(const std::string& directory, std::size_t largest_message_bytes, Admission admission = {},
+                  const Door& door = {});
   /// Gives messages already sent up to 1.5 s to leave, closes, removes the socket file and a directory it created.
   ~CouplerEndpoint();
 
   /// "ipc://..." for the participants' command line.
   const std::string& address() const;
+  /// "tcp://HOST:PORT" of the door; "" without.
+  const std::string& door_address() const;
   /// Random per object; participants must show the token in Hello, every later message carries the session number.
   const std::string& session_token() const;
   std::uint64_t session() const;

@@ -46,7 +46,7 @@ void Participant::restore(const Restore&) {
   not_offered("Restore");
 }
 
-SessionOptions read_session_options(const std::string& endpoint, std::uint64_t case_hash) {
+SessionOptions read_session_options(const std::string& endpoint, std::uint64_t case_hash, const KeyFiles& keys) {
   const char* token = std::getenv("QDEM_FEM_SESSION_TOKEN");
   if (endpoint.empty())
     throw Error(ExitCode::usage, "no endpoint", "--endpoint", "a participant is started by the coupler");
@@ -57,6 +57,15 @@ SessionOptions read_session_options(const std::string& endpoint, std::uint64_t c
   options.endpoint = endpoint;
   options.session_token = token;
   options.case_hash = case_hash;
+  if (keys.server.empty() != keys.own.empty())
+    throw Error(ExitCode::usage, "one key is missing", keys.own.empty() ? "--key" : "--server-key",
+                "an encrypted connection needs the participant's secret key and the coupler's public one");
+  if (keys.own.empty() && needs_keys(endpoint))
+    throw Error(ExitCode::usage, "a connection to another machine needs keys", endpoint, "give --key and --server-key");
+  if (!keys.own.empty()) {
+    options.server_key = read_public_key(keys.server);
+    options.key = read_key_pair(keys.own);
+  }
   return options;
 }
 

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "proto/error.hpp"
+#include "proto/session/curve_keys.hpp"
 #include "proto/wire/messages.hpp"
 
 namespace proto {
@@ -89,16 +90,24 @@ class Participant {
 
 /// Where the coupler is.
 struct SessionOptions {
-  std::string endpoint;       ///< e.g. ipc:///run/user/0/qdem-fem-1234/coupler
+  std::string endpoint;       ///< e.g. ipc:///run/user/0/qdem-fem-1234/coupler, tcp://10.0.0.1:41234
   std::string session_token;  ///< secret of this run, from the environment variable QDEM_FEM_SESSION_TOKEN
   std::uint64_t case_hash = 0;
   double connect_timeout_s = 30.0;
   double peer_timeout_s = 15.0;  ///< without any sign of the coupler's process
+  std::string server_key;        ///< the coupler's public key (Z85); empty: neither encrypted nor authenticated
+  KeyPair key;                   ///< with server_key: this participant's
 };
 
-/// Options from the `--endpoint` argument and the environment variable QDEM_FEM_SESSION_TOKEN.
-/// Throws proto::Error (usage) when either is missing.
-SessionOptions read_session_options(const std::string& endpoint, std::uint64_t case_hash);
+/// Files of an encrypted connection, from `--server-key` and `--key`; both or none.
+struct KeyFiles {
+  std::string server, own;
+};
+
+/// Options from the `--endpoint` argument, the environment variable QDEM_FEM_SESSION_TOKEN and the files of keys.
+/// Throws proto::Error: usage when endpoint or token is missing, when one of the two files is given alone, or none
+/// and the endpoint lies on another machine; what read_key_pair() throws.
+SessionOptions read_session_options(const std::string& endpoint, std::uint64_t case_hash, const KeyFiles& keys = {});
 
 /// Runs the session to its end. Returns after Finish/Bye.
 ///

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <optional>
+#include <vector>
 #include <zmq.hpp>
 
 namespace proto {
@@ -44,10 +45,9 @@ inline bool send_part(zmq::socket_t& socket, zmq::const_buffer part, zmq::send_f
 }
 
 /// zmq::poll that takes an interrupting signal for "nothing happened".
-template <std::size_t n>
-void poll_sockets(zmq::pollitem_t (&items)[n], std::chrono::milliseconds timeout, std::size_t used = n) {
+inline void poll_sockets(std::vector<zmq::pollitem_t>& items, std::chrono::milliseconds timeout) {
   try {
-    zmq::poll(items, used, timeout);
+    zmq::poll(items, timeout);
   } catch (const zmq::error_t& error) {
     if (error.num() != EINTR) throw;
     for (auto& item : items) item.revents = 0;

@@ -12,7 +12,9 @@
 #include <system_error>
 
 #include "proto/case/case_file.hpp"
+#include "proto/case/case_schema.hpp"
 #include "proto/error.hpp"
+#include "qdem_solver/bed/settings.hpp"
 #include "qdem_solver/bed/stone_export.hpp"
 #include "qdem_solver/bench/device_report.hpp"
 #include "qdem_solver/bench/report.hpp"
@@ -54,6 +56,19 @@ void print_ledger(const EnergyBalance& energy, double largest_residual) {
 void check_command(const proto::CaseFile& file) {
   check_case(file);
   for (const std::string& warning : check_bed(file, read_qdem_case(file).physics)) spdlog::warn("{}", warning);
+}
+
+void schema_command() {
+  // Two materials must be there; a third one shows that a case may have names of its own.
+  const std::string seed = R"(
+bed.stone_materials = ["stone", "x"]
+qdem.material = [{name = "stone"}, {name = "sleeper"}, {name = "x"}]
+qdem.contact = {damping_ratio = 0.5, normal_stiffness_n_per_m = 1e6}
+rail_seat = [{half_lengths_m = [0.05, 0.05]}]
+)";
+  fmt::print("{}\n", proto::case_schema({[](const proto::CaseFile& file) { read_qdem_case(file); },
+                                         [](const proto::CaseFile& file) { bed::read_settings(file); }},
+                                        seed));
 }
 
 void print_figures(const proto::CaseFile& file) {

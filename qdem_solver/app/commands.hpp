@@ -12,6 +12,9 @@ namespace qdem {
 /// `qdem_solver check`: every section that this program reads. Throws proto::Error (config).
 void check_command(const proto::CaseFile& file);
 
+/// Prints the JSON Schema of the sections that this program reads.
+void schema_command();
+
 /// Prints what the case's sleeper weighs, the step it allows, and the contact's stiffness on pad and ground.
 void print_figures(const proto::CaseFile& file);
 

@@ -22,6 +22,7 @@ struct Arguments {
   std::string case_path, endpoint, out = ".", name = "qdem", bed_path = "bed.h5", stones = "stones", json_path;
   qdem::bed::Roughness roughness;
   bool on_cuda = false;
+  proto::KeyFiles keys;
 };
 
 void check(const Arguments& arguments) {
@@ -33,7 +34,7 @@ void check(const Arguments& arguments) {
 
 void participate(const Arguments& arguments) {
   auto file = proto::CaseFile::load(arguments.case_path);
-  const auto options = proto::read_session_options(arguments.endpoint, file.hash());
+  const auto options = proto::read_session_options(arguments.endpoint, file.hash(), arguments.keys);
   qdem::check_command(file);
   qdem::QdemParticipant participant(std::move(file), qdem::bed_of_case, arguments.name, arguments.out);
   proto::serve(participant, options);
@@ -78,9 +79,14 @@ int run(int argc, char** argv) {
   checker->add_option("--case", arguments.case_path, "case file")->required();
   checker->callback([&] { check(arguments); });
 
+  auto* schema = app.add_subcommand("schema", "print the JSON Schema of the sections that it reads");
+  schema->callback([] { qdem::schema_command(); });
+
   auto* participant = app.add_subcommand("participant", "take part in a coupled run; started by the coupler");
   participant->add_option("--case", arguments.case_path, "case file")->required();
   participant->add_option("--endpoint", arguments.endpoint, "where the coupler listens")->required();
+  participant->add_option("--server-key", arguments.keys.server, "public key of a coupler on another machine");
+  participant->add_option("--key", arguments.keys.own, "own secret key");
   participant->add_option("--out", arguments.out, "folder for results");
   participant->add_option("--name", arguments.name, "name in the session");
   participant->callback([&] { participate(arguments); });

@@ -13,6 +13,7 @@ house_packages=(
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libuv1-dev nlohmann-json3-dev
   libgtest-dev gnuplot-nox graphviz python3-zmq python3-flatbuffers python3-xxhash
   python3-h5py python3-matplotlib
+  iproute2 python3-jsonschema
 )
 # npm makes the page of the reports; where it comes from elsewhere, Debian's is not asked for.
 command -v npm >/dev/null || house_packages+=(nodejs npm)
