@@ -4,13 +4,15 @@
 #include <string>
 
 #include "fem_solver/rail/rail_model.hpp"
+#include "fem_solver/wheel/wheel_model.hpp"
 
 namespace fem {
 
-/// One program: its rail is what distinguishes it.
+/// One program: its rail and wheel are what distinguishes it.
 struct FemProgram {
   std::string name, description;
   RailBuilder build;
+  WheelBuilder build_wheel;
 };
 
 /// Carries out `participant`, `check`, `static` or `run`; the exit code. Errors become one line on stderr.

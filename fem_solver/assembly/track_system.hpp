@@ -42,18 +42,27 @@ struct TrackSystem {
 struct RailMatrices {
   SparseMatrix stiffness;       ///< lower triangle [N/m]
   SparseMatrix mass;            ///< lower triangle [kg]
-  Eigen::VectorXd end_damping;  ///< diagonal: dashpots on the end faces [N s/m]
+  Eigen::VectorXd end_damping;  ///< diagonal: dashpots on the end faces, and the absorbing layers' [N s/m]
   Eigen::VectorXd weight;       ///< [N]
 };
 
-/// Element boundaries along x: n_bays bays about x = 0 and half a bay more at each end, equal elements, a whole number
-/// of them to a bay.
+/// Element boundaries along x: n_bays bays about x = 0 and half a bay more at each end in equal elements, a whole
+/// number of them to a bay; beyond, the absorbing layers, each bay of them in equal elements too.
 struct RailPlanes {
   std::vector<double> x;  ///< ascending [m]
   int per_bay;
-  double element_length;  ///< [m]
+  double element_length;  ///< of the refined part [m]
+  int n_layer = 0;        ///< elements of the absorbing layer at each end
+
+  double fine_begin() const { return x[n_layer]; }               ///< [m]
+  double fine_end() const { return x[x.size() - 1 - n_layer]; }  ///< [m]
 };
-RailPlanes rail_planes(const FemSettings& settings);
+/// `layer_element_length`: largest in the layers [m].
+RailPlanes rail_planes(const FemSettings& settings, double layer_element_length);
+
+/// Mass-proportional damping of rail and sleepers at x [1/s]: grows with the cube of the depth in an absorbing layer,
+/// so that a wave meets no step in it; zero in the refined part.
+double layer_damping(const FemSettings& settings, double x);
 
 /// Throws proto::Error (config) for a rail seat that is not at a multiple of the sleeper spacing, at a foot that is not
 /// at z = 0, at different y, or beyond the rail.
@@ -68,7 +77,5 @@ TrackSystem assemble_track(const FemSettings& settings, const std::vector<proto:
 /// of the Euler-Bernoulli bending wave at the stated frequency across. It absorbs that frequency's transverse force,
 /// not its moment. Zero when switched off.
 Eigen::Vector3d end_impedance(const FemSettings& settings, const SectionProperties& section);
-
-constexpr double gravity = 9.81;  ///< [m/s2]
 
 }  // namespace fem

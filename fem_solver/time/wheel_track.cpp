@@ -12,10 +12,12 @@ WheelTrack::Stepper::Stepper(const TrackSystem& system, double step, double mass
   compliance = system.cells * cell_columns;
 }
 
-WheelTrack::WheelTrack(const RailModel& rail, const FemSettings& fem, const WheelSettings& wheel, double step,
-                       std::vector<proto::PadLaw> laws)
+WheelTrack::WheelTrack(const RailModel& rail, const FemSettings& fem, const WheelSettings& wheel, WheelModel model,
+                       double step, std::vector<proto::PadLaw> laws)
     : system_(rail.track()),
       wheel_(wheel),
+      wheel_model_(std::move(model)),
+      wheel_stepper_(wheel_model_, step),
       step_(step),
       initialise_damping_(fem.initialise_damping),
       laws_(std::move(laws)),
@@ -41,9 +43,10 @@ void WheelTrack::set_rest(const Eigen::VectorXd& displacement) {
   // The contact takes the excess out of the rail's descent, here as in add_wheel().
   const BandWeights place = band_.at(wheel_.start);
   const double rail = band_.read(place, displacement) + excess_flexibility(place) * wheel_.static_load;
-  state_.wheel_displacement = rail + wheel_.irregularity.height_at(wheel_.start) -
-                              std::pow(wheel_.static_load / hertz_.coefficient(), 2.0 / 3.0);
-  state_.wheel_velocity = 0.0;
+  const double wheel = rail + wheel_.height_at(wheel_.start) -
+                       std::pow(wheel_.static_load / hertz_.coefficient(), 2.0 / 3.0) +
+                       wheel_model_.local_flexibility * wheel_.static_load;
+  state_.wheel = wheel_at_rest(wheel_model_, wheel);
 }
 
 WindowOutput WheelTrack::relax(const WindowInput& input, double step) {
@@ -87,15 +90,15 @@ Eigen::VectorXd WheelTrack::contact_response(Stepper& stepper, const BandWeights
   return response;
 }
 
-// The wheel's own window equation 2 m (v_m - v0)/H = F - P makes its mean displacement affine in F.
+// The wheel's own window equation makes its mean displacement affine in F.
 void WheelTrack::add_wheel(InterfaceProblem& problem, const BandWeights& place, double position,
                            const Eigen::VectorXd& response, const Eigen::VectorXd& free) const {
-  const double half = step_ / 2, per_force = half / wheel_.unsprung_mass;
-  const double wheel_free = state_.wheel_displacement + half * (state_.wheel_velocity - per_force * wheel_.static_load);
+  const double half = step_ / 2;
   const double rail_free = band_.read(place, state_.track.displacement) + half * band_.read(place, free);
   problem.coefficient = hertz_.coefficient();
-  problem.approach_0 = rail_free + wheel_.irregularity.height_at(position) - wheel_free;
-  problem.contact_slope = half * (band_.read(place, response) + per_force) - excess_flexibility(place);
+  problem.approach_0 = rail_free + wheel_.height_at(position) - wheel_stepper_.free_displacement(state_.wheel);
+  problem.contact_slope = half * (band_.read(place, response) + wheel_stepper_.response()) - excess_flexibility(place) -
+                          wheel_model_.local_flexibility;
 }
 
 WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Wheel wheel) {
@@ -143,12 +146,7 @@ WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Whe
   band_.add_load(place, -solution.contact, right_side);
   stepper.newmark.finish(state_.track, velocity, right_side);
 
-  if (wheel == Wheel::rolling) {
-    const double mean =
-        state_.wheel_velocity + step_ / (2 * wheel_.unsprung_mass) * (solution.contact - wheel_.static_load);
-    state_.wheel_displacement += step_ * mean;
-    state_.wheel_velocity = 2 * mean - state_.wheel_velocity;
-  }
+  if (wheel == Wheel::rolling) wheel_stepper_.finish(state_.wheel, solution.contact);
   state_.wheel_position = position;
   state_.last = solution;
   return output;

@@ -100,7 +100,7 @@ const BadInput bad_inputs[] = {
      {{"radius_m", "0.43\n[wheel.irregularity]\nkind = \"table\"\nfile = \"case.toml\""}},
      ExitCode::bad_data,
      "fem",
-     {"a line of the irregularity table is not 'x_m, height_m'", "case.toml:1"}},
+     {"a line of the irregularity table is not two numbers 'x_m, height_m'", "case.toml:1"}},
     {"unknown_profile",
      {{"n_bays", "4\nprofile = \"60E2\""}},
      ExitCode::config,
