@@ -15,6 +15,7 @@ house_test(fem_beam_test verification SOURCES verification/fem_beam.cpp LIBRARIE
 house_test(fem_rail_ends verification SOURCES verification/fem_rail_ends.cpp LIBRARIES fem::solid fem::beam_rail)
 house_test(fem_wheel_surfaces unit SOURCES unit/fem_wheel_surfaces.cpp LIBRARIES fem::beam_rail)
 house_test(fem_solid_wheel verification SOURCES verification/fem_solid_wheel.cpp LIBRARIES fem::solid fem::beam_rail)
+house_test(fem_support_pads verification SOURCES verification/fem_support_pads.cpp LIBRARIES fem::solid fem::beam_rail)
 house_test(fem_solid_and_beam verification SOURCES verification/fem_solid_and_beam.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json)
 add_dependencies(fem_solid_and_beam coupler oscillator_participant fem_solver fem_beam)

@@ -42,8 +42,12 @@ std::vector<double> seat_forces(const TrackSystem& system, const TrackState& sta
     const double y = seat.axes.col(2).dot(state.velocity.segment<3>(sleeper));
     const proto::PadLaw law = seat.cell_law(2);
     double sum = 0.0;
-    for (int cell = 0; cell < seat.n_cells(); ++cell, value += 3)
-      sum -= law.stiffness * (u[value] - x) + law.damping * (v[value] - y);
+    for (int cell = 0; cell < seat.n_cells(); ++cell, value += 3) {
+      const double gap = u[value] - x, rate = v[value] - y;
+      sum -= law.stiffness * gap + law.damping * rate;
+      if (!system.support_laws.empty())
+        sum -= system.support_laws[static_cast<std::size_t>(value / 3)].force(gap, rate);
+    }
     forces.push_back(sum);
   }
   return forces;

@@ -75,6 +75,33 @@ void add_ballast(const TrackSystem& system, const FemSettings& settings, Triplet
   }
 }
 
+// Rows of the normal motion of the supports' pad cells against their sleepers, below the coupled cells.
+void add_nonlinear_pads(TrackSystem& system, const SupportSettings& s) {
+  Triplets entries;
+  const auto add_block = [&](const SparseMatrix& block) {
+    for (int column = 0; column < block.outerSize(); ++column)
+      for (SparseMatrix::InnerIterator it(block, column); it; ++it)
+        entries.emplace_back(it.row(), it.col(), it.value());
+  };
+  add_block(system.cells);
+  int row = static_cast<int>(system.cells.rows()), value = 2;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> foot = system.support_cells;
+  for (std::size_t i = 0; i < system.support_seats.size() && !s.linear_pads(); ++i) {
+    const auto& seat = system.support_seats[i];
+    for (int cell = 0; cell < seat.n_cells(); ++cell, ++row, value += 3) {
+      for (decltype(foot)::InnerIterator it(foot, value); it; ++it) entries.emplace_back(row, it.col(), it.value());
+      for (int c = 0; c < 3; ++c)
+        entries.emplace_back(row, system.sleeper_dof(static_cast<int>(i), c), -seat.axes(c, 2));
+      proto::PadLaw pad = seat.cell_law(2);
+      pad.tension_cutoff = s.pad_tension_cutoff, pad.preload = s.pad_clip_preload * seat.cell_weight();
+      const double second = s.pad_second_stiffness * seat.cell_weight();
+      system.support_laws.push_back({pad, s.pad_second_begin, std::max(0.0, second - pad.stiffness), true});
+    }
+  }
+  system.interface.resize(row, system.cells.cols());
+  system.interface.setFromTriplets(entries.begin(), entries.end());
+}
+
 SparseMatrix from(const Triplets& entries, int n) {
   SparseMatrix matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -138,6 +165,7 @@ TrackSystem assemble_track(const FemSettings& settings, const std::vector<proto:
   // Sleepers are measured from their own state of rest, as the coupled ones are: only the rail has weight here.
   const int n_sleeper = 3 * static_cast<int>(system.support_seats.size()), n = system.n_rail_dofs + n_sleeper;
   system.cells.conservativeResize(system.cells.rows(), n);
+  add_nonlinear_pads(system, settings.support);
   system.weight = Eigen::VectorXd::Zero(n);
   if (settings.gravity) system.weight.head(system.n_rail_dofs) = matrices.weight;
   system.mass = std::move(matrices.mass);

@@ -8,6 +8,7 @@
 #include "fem_solver/linear/sparse_matrix.hpp"
 #include "fem_solver/model/rail_section.hpp"
 #include "fem_solver/model/settings.hpp"
+#include "fem_solver/time/interface_law.hpp"
 #include "proto/case/rail_seat.hpp"
 
 namespace fem {
@@ -30,9 +31,13 @@ struct TrackSystem {
   double stiffness_damping = 0.0;              ///< b [s]
   Eigen::VectorXd weight;                      ///< of the rail, zero when switched off [N]
   SparseMatrix cells;                          ///< coupled cells x degrees of freedom
+  SparseMatrix interface;                      ///< the same, then the nonlinear pads' cells of the own supports
+  std::vector<InterfaceLaw> support_laws;      ///< of the latter: what they do beyond their part in K_s and C_s
   SparseMatrix support_cells;                  ///< own supports' cells x degrees of freedom of the rail
   int n_rail_dofs = 0;
 
+  /// Rows of `interface` that belong to the own supports: normal motion of the foot against the sleeper.
+  auto support_pads() const { return interface.bottomRows(static_cast<Eigen::Index>(support_laws.size())); }
   int n_dofs() const { return static_cast<int>(mass.rows()); }
   /// Degree of freedom of sleeper `support` (index into support_seats), component 0..2.
   int sleeper_dof(int support, int component) const { return n_rail_dofs + 3 * support + component; }

@@ -26,6 +26,13 @@ SupportSettings read_support(const proto::Section& section, const proto::RailSea
   }
   s.pad_stiffness = triple(section, "pad_stiffness_n_per_m", seat.stiffness);
   s.pad_damping = triple(section, "pad_damping_ns_per_m", seat.damping);
+  s.pad_tension_cutoff = section.boolean_or("pad_tension_cutoff", s.pad_tension_cutoff);
+  s.pad_clip_preload = section.number_or("pad_clip_preload_n", s.pad_clip_preload, Range::not_negative());
+  s.pad_second_stiffness = section.number_or("pad_second_stiffness_n_per_m", 0.0, Range::not_negative());
+  s.pad_second_begin = section.number_or("pad_second_begin_m", 0.0, Range::not_negative());
+  if (s.pad_second_stiffness != 0.0 && s.pad_second_stiffness < s.pad_stiffness[2])
+    section.fail("pad_second_stiffness_n_per_m", "the pad would soften when pressed",
+                 "give at least the third value of pad_stiffness_n_per_m");
   s.sleeper_mass = section.number_or("sleeper_mass_kg", s.sleeper_mass, Range::positive());
   s.ballast_stiffness = triple(section, "ballast_stiffness_n_per_m", s.ballast_stiffness);
   s.ballast_damping = triple(section, "ballast_damping_ns_per_m", s.ballast_damping);

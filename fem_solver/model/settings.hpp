@@ -22,9 +22,15 @@ struct SupportSettings {
   Eigen::Vector2i pad_cells{3, 3};
   Eigen::Vector3d pad_stiffness{60e6, 60e6, 225e6};      ///< whole pad [N/m]
   Eigen::Vector3d pad_damping{15e3, 15e3, 30e3};         ///< whole pad [N s/m]
+  bool pad_tension_cutoff = false;                       ///< the pad lets go where the clip's preload is used up
+  double pad_clip_preload = 0.0;                         ///< whole pad [N]
+  double pad_second_stiffness = 0.0;                     ///< whole pad, normal, when pressed further; 0: linear [N/m]
+  double pad_second_begin = 0.0;                         ///< compression where it begins [m]
   double sleeper_mass = 150.0;                           ///< half sleeper [kg]
   Eigen::Vector3d ballast_stiffness{50e6, 50e6, 150e6};  ///< [N/m]
   Eigen::Vector3d ballast_damping{48e3, 48e3, 48e3};     ///< [N s/m]
+
+  bool linear_pads() const { return !pad_tension_cutoff && pad_second_stiffness == 0.0; }
 };
 
 struct FemSettings {
@@ -88,6 +94,7 @@ struct WheelSettings {
 /// loss_factor_frequency_hz, gravity, end_dashpot_frequency_hz, end_layer_bays, end_layer_element_length_m,
 /// end_layer_damping_per_s, initialise_damping_per_s and
 /// [fem.support]: pad_stiffness_n_per_m, pad_damping_ns_per_m, pad_cells (default: those of the first rail seat),
+/// pad_tension_cutoff, pad_clip_preload_n, pad_second_stiffness_n_per_m, pad_second_begin_m,
 /// sleeper_mass_kg, ballast_stiffness_n_per_m, ballast_damping_ns_per_m. Spacing from [track].
 FemSettings read_fem(const proto::CaseFile& file, const std::vector<proto::RailSeat>& seats);
 

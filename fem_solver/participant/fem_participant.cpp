@@ -186,7 +186,7 @@ proto::FieldSet FemParticipant::start() {
 
 void FemParticipant::exchange(proto::StateArchive& archive) {
   archive.expect_same("model", "the rail", std::to_string(rail_->track().n_dofs()) + " unknowns");
-  archive.expect_same("wheel", "the wheel", std::to_string(track_->wheel_model().n_dofs()) + " unknowns");
+  archive.expect_same("wheel_model", "the wheel", std::to_string(track_->wheel_model().n_dofs()) + " unknowns");
   fem::exchange(archive, committed_);
   archive("force_used", force_used_);
   archive("largest_contact", largest_contact_);

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "proto/pad/pad_law.hpp"
+#include "fem_solver/time/interface_law.hpp"
 
 namespace fem {
 
@@ -16,7 +16,7 @@ namespace fem {
 ///
 /// `gap_0` and `approach_0` hold what does not depend on this window's unknowns.
 struct InterfaceProblem {
-  std::vector<proto::PadLaw> laws;
+  std::vector<InterfaceLaw> laws;
   Eigen::VectorXd gap_0;             ///< [m]
   Eigen::VectorXd free_velocity;     ///< [m/s], zero in statics
   Eigen::VectorXd sleeper_velocity;  ///< [m/s]

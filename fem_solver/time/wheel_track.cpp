@@ -7,9 +7,9 @@ namespace fem {
 
 WheelTrack::Stepper::Stepper(const TrackSystem& system, double step, double mass_damping)
     : newmark(system, step, mass_damping) {
-  if (system.cells.rows() == 0) return;
-  cell_columns = newmark.factor().solve_columns(Eigen::MatrixXd(system.cells.transpose()));
-  compliance = system.cells * cell_columns;
+  if (system.interface.rows() == 0) return;
+  interface_columns = newmark.factor().solve_columns(Eigen::MatrixXd(system.interface.transpose()));
+  compliance = system.interface * interface_columns;
 }
 
 WheelTrack::WheelTrack(const RailModel& rail, const FemSettings& fem, const WheelSettings& wheel, WheelModel model,
@@ -59,6 +59,7 @@ WindowOutput WheelTrack::relax(const WindowInput& input, double step) {
 
 double WheelTrack::static_residual(const TrackState& before, const Eigen::VectorXd& force_used) const {
   Eigen::VectorXd load = system_.weight - system_.cells.transpose() * force_used;
+  load -= system_.support_pads().transpose() * state_.last.force.tail(system_.support_laws.size());
   band_.add_load(band_.at(wheel_.start), -wheel_.static_load, load);
   return (load - (before.elastic + state_.track.elastic) / 2).lpNorm<1>() / load.lpNorm<1>();
 }
@@ -113,17 +114,23 @@ WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Whe
   Eigen::VectorXd velocity = stepper.newmark.response(right_side);
 
   InterfaceProblem p;
-  if (!input.prescribed) p.laws = laws_;
+  if (!input.prescribed) p.laws = interface_laws_of(laws_);
+  const auto n_coupled = static_cast<Eigen::Index>(p.laws.size());
+  p.laws.insert(p.laws.end(), system_.support_laws.begin(), system_.support_laws.end());
   const auto n = static_cast<Eigen::Index>(p.laws.size());
+  const auto rows = system_.interface.bottomRows(n);
   p.time_factor = stepper.newmark.step() / 2;
   p.carry = p.gap_0 = p.free_velocity = p.sleeper_velocity = p.contact_column = Eigen::VectorXd::Zero(n);
   if (n > 0) {
-    p.carry = input.carry;
-    p.gap_0 = cell_displacement() - input.sleeper_displacement;
-    p.free_velocity = system_.cells * velocity;
-    p.sleeper_velocity = input.sleeper_velocity;
-    p.compliance = stepper.compliance;
-    p.contact_column = system_.cells * response;
+    p.gap_0 = rows * state_.track.displacement;
+    p.free_velocity = rows * velocity;
+    p.compliance = stepper.compliance.bottomRightCorner(n, n);
+    p.contact_column = rows * response;
+  }
+  if (n_coupled > 0) {
+    p.carry.head(n_coupled) = input.carry;
+    p.gap_0.head(n_coupled) -= input.sleeper_displacement;
+    p.sleeper_velocity.head(n_coupled) = input.sleeper_velocity;
   }
   if (wheel == Wheel::rolling)
     add_wheel(p, place, position, response, velocity);
@@ -136,11 +143,12 @@ WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Whe
       "fem: window " + std::to_string(state_.windows) + ", wheel at x = " + std::to_string(position) + " m";
   const InterfaceSolution solution = solve_interface(p, guess, where.c_str());
 
-  WindowOutput output{solution.force, solution.force - p.carry};
+  const Eigen::VectorXd used = solution.force - p.carry;
+  WindowOutput output{solution.force.head(n_coupled), used.head(n_coupled)};
   if (input.prescribed) output.force_robin = output.force_used = *input.prescribed;
   if (n > 0) {
-    velocity -= stepper.cell_columns * output.force_used;
-    right_side -= system_.cells.transpose() * output.force_used;
+    velocity -= stepper.interface_columns.rightCols(n) * used;
+    right_side -= rows.transpose() * used;
   }
   velocity -= solution.contact * response;
   band_.add_load(place, -solution.contact, right_side);

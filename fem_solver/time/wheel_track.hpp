@@ -92,7 +92,7 @@ class WheelTrack {
   struct Stepper {
     Stepper(const TrackSystem& system, double step, double mass_damping);
     Newmark newmark;
-    Eigen::MatrixXd cell_columns;             // A^-1 Phi'
+    Eigen::MatrixXd interface_columns;        // A^-1 Phi'
     Eigen::MatrixXd compliance;               // Phi A^-1 Phi'
     std::map<int, Eigen::VectorXd> stations;  // A^-1 of the station loads around the wheel
   };
