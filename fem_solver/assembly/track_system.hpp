@@ -6,9 +6,9 @@
 
 #include "fem_solver/assembly/rail_kinematics.hpp"
 #include "fem_solver/linear/sparse_matrix.hpp"
+#include "fem_solver/model/interface_law.hpp"
 #include "fem_solver/model/rail_section.hpp"
 #include "fem_solver/model/settings.hpp"
-#include "fem_solver/time/interface_law.hpp"
 #include "proto/case/rail_seat.hpp"
 
 namespace fem {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fem_solver/time/interface_law.hpp"
+#include "fem_solver/model/interface_law.hpp"
 
 namespace fem {
 
