@@ -5,6 +5,7 @@ house_test(contact_calibration unit SOURCES unit/contact_calibration.cpp LIBRARI
 house_test(bed_test unit SOURCES unit/bed_test.cpp unit/bed_file.cpp LIBRARIES qdem::bed)
 house_test(stone_files_test unit SOURCES unit/stone_files_test.cpp LIBRARIES qdem::bed)
 house_test(bed_rest_test verification ALONE TIMEOUT 900 SOURCES verification/bed_rest_test.cpp LIBRARIES qdem::bed qdem::engine)
+house_test(subgrade_bed verification SOURCES verification/subgrade_bed.cpp LIBRARIES qdem::bed qdem::output)
 house_test(sleeper_bending verification SOURCES verification/sleeper_bending.cpp LIBRARIES qdem::stones qdem::engine)
 house_test(contact_impact_test verification SOURCES verification/contact_impact_test.cpp LIBRARIES qdem::engine)
 house_test(contact_restitution verification SOURCES verification/contact_restitution.cpp LIBRARIES qdem::engine)

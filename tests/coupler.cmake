@@ -6,12 +6,19 @@ house_test(coupler_audit_test unit SOURCES unit/coupler_audit.cpp LIBRARIES coup
 house_test(coupler_split_bar_test verification SOURCES verification/coupler_split_bar.cpp LIBRARIES coupler::advisor)
 house_test(coupler_advisor_test verification SOURCES verification/coupler_advisor.cpp LIBRARIES coupler::advisor)
 house_test(coupler_interface_check_test unit SOURCES unit/coupler_interface_check.cpp LIBRARIES coupler::mapping)
+house_test(coupler_mapping_test unit SOURCES unit/coupler_mapping.cpp LIBRARIES coupler::mapping)
 house_test(coupler_launch_test integration SOURCES integration/coupler_launch.cpp LIBRARIES coupler::launch TIMEOUT 60)
 add_dependencies(coupler_launch_test coupler)
 find_package(nlohmann_json 3.11 REQUIRED)
 house_test(coupler_split_oscillator_test convergence SOURCES convergence/coupler_split_oscillator.cpp
            LIBRARIES coupler::advisor nlohmann_json::nlohmann_json)
 add_dependencies(coupler_split_oscillator_test coupler oscillator_participant)
+add_executable(linear_participant support/linear_participant.cpp)
+target_link_libraries(linear_participant PRIVATE proto::participant coupler::scheme house::options)
+set_target_properties(linear_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
+house_test(coupler_test_problems_test convergence SOURCES convergence/coupler_test_problems.cpp
+           LIBRARIES coupler::mapping proto::result_serial nlohmann_json::nlohmann_json)
+add_dependencies(coupler_test_problems_test coupler linear_participant)
 add_executable(wrong_version_participant support/wrong_version_participant.cpp)
 target_link_libraries(wrong_version_participant PRIVATE proto::participant proto_session_sockets house::options)
 set_target_properties(wrong_version_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
@@ -68,6 +75,10 @@ if(TARGET report_page)
   add_dependencies(run_pictures_test report_page)
 endif()
 
+house_test(coupler_solvers_test integration ALONE SOURCES integration/coupler_solvers.cpp
+           LIBRARIES proto::case nlohmann_json::nlohmann_json)
+add_dependencies(coupler_solvers_test coupler qdem_solver fem_solver)
+
 # The whole chain; the first test builds the bed of the quick case.
 house_test(wheel_passage_test integration ALONE SOURCES integration/wheel_passage.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 1500)
@@ -85,11 +96,24 @@ house_test(coupler_resume_test fault ALONE SOURCES fault/coupler_resume.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 400)
 add_dependencies(coupler_resume_test coupler qdem_solver fem_solver oscillator_participant)
 
+house_test(coupler_surroundings_test fault SOURCES fault/coupler_surroundings.cpp
+           LIBRARIES proto::case nlohmann_json::nlohmann_json)
+add_dependencies(coupler_surroundings_test coupler oscillator_participant relaxing_participant)
+
+# The same with the full counts; not in the default run: tests/run --label fault-long.
+add_test(NAME coupler_kills_long_test COMMAND coupler_resume_test --gtest_filter=Resume.AfterKills*)
+set_tests_properties(coupler_kills_long_test PROPERTIES ENVIRONMENT HOUSE_KILLS=300 TIMEOUT 7200)
+add_test(NAME coupler_checkpoint_kills_long_test COMMAND coupler_surroundings_test --gtest_filter=CheckpointKill.*)
+set_tests_properties(coupler_checkpoint_kills_long_test PROPERTIES ENVIRONMENT HOUSE_KILLS=500 TIMEOUT 7200)
+set_tests_properties(coupler_kills_long_test coupler_checkpoint_kills_long_test PROPERTIES LABELS fault-long RUN_SERIAL
+                                                                                           TRUE)
+
 # What a participant has to keep, and participants that do not.
 add_executable(broken_participant support/broken_participant.cpp)
 target_link_libraries(broken_participant PRIVATE proto::participant proto_session_sockets proto::result_serial
                                                  coupler::advisor Threads::Threads house::options)
 set_target_properties(broken_participant PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
+add_dependencies(coupler_resume_test broken_participant)
 house_test(coupler_conformance_test fault ALONE SOURCES fault/coupler_conformance.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json TIMEOUT 600)
 add_dependencies(coupler_conformance_test coupler oscillator_participant broken_participant qdem_solver fem_solver fem_beam

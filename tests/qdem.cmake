@@ -25,4 +25,5 @@ house_test(qdem_participant_whole integration SOURCES integration/qdem_participa
            LIBRARIES qdem::participant coupler::mapping)
 set_tests_properties(qdem_participant_whole PROPERTIES ENVIRONMENT "OMP_NUM_THREADS=1;OMP_WAIT_POLICY=passive")
 house_test(qdem_ledger verification SOURCES verification/qdem_ledger.cpp LIBRARIES qdem::engine)
+house_test(qdem_absorbing verification SOURCES verification/qdem_absorbing.cpp LIBRARIES qdem::engine)
 house_test(qdem_loads verification SOURCES verification/qdem_loads.cpp LIBRARIES qdem::engine)

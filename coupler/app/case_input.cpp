@@ -13,10 +13,10 @@ CaseInput read_case(const std::string& path) {
   return {std::move(file), std::move(coupling), std::move(seats)};
 }
 
-void use_fem(proto::Coupling& coupling, const std::string& fem) {
-  if (fem.empty()) return;
+void use_programs(proto::Coupling& coupling, const std::string& fem, const std::string& qdem) {
   const std::string program = fem == "solid" ? "fem_solver" : fem == "beam" ? "fem_beam" : fem;
-  coupling.fem.command = {find_program(program, "--fem"), "participant"};
+  if (!fem.empty()) coupling.fem.command = {find_program(program, "--fem"), "participant"};
+  if (!qdem.empty()) coupling.qdem.command = {find_program(qdem, "--qdem"), "participant"};
 }
 
 std::vector<proto::ParticipantSpec> find_participants(const CaseInput& input) {

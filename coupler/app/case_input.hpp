@@ -19,10 +19,10 @@ struct CaseInput {
 /// Reads and checks the coupler's own and the common sections. Throws proto::Error (config, missing_input).
 CaseInput read_case(const std::string& path);
 
-/// Puts another program in the place of the case's fem_command: "solid" (fem_solver), "beam" (fem_beam), or one of the
-/// user's, started as they are with `participant` as its first argument. Empty: the case's stays.
+/// Puts other programs in the place of the case's fem_command ("solid": fem_solver, "beam": fem_beam, or one of the
+/// user's) and qdem_command, started with `participant` as their first argument. Empty: the case's stays.
 /// Throws proto::Error (missing_input) when there is no such program.
-void use_fem(proto::Coupling& coupling, const std::string& fem);
+void use_programs(proto::Coupling& coupling, const std::string& fem, const std::string& qdem);
 
 /// The participants' programs as absolute paths, in the order qdem, fem.
 /// Throws proto::Error (missing_input) naming the key of the program that is not there.

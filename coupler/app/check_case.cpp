@@ -29,7 +29,7 @@ ChildExit run_check(Children& children, const proto::ParticipantSpec& spec, cons
 
 int check_case(const RunOptions& options) {
   auto input = read_case(options.case_path);
-  use_fem(input.coupling, options.fem);
+  use_programs(input.coupling, options.fem, options.qdem);
   Children children(own_path());
   for (const auto& spec : find_participants(input)) {
     const auto exit = run_check(children, spec, input.file.path());

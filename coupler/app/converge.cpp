@@ -31,7 +31,7 @@ class Ladder {
     if (options_.over == Refine::sub_cycles) run.sub_cycle_factor = input_.coupling.sub_cycle_factor * factor;
     if (options_.over == Refine::cells) {
       run.case_path = folder_.file("level_" + std::to_string(level) + ".toml");
-      proto::write_text_file(run.case_path, with_finer_cells(input_.file.text(), factor));
+      proto::write_text_file(run.case_path, with_finer_cells(input_.file, factor));
     }
     return run;
   }

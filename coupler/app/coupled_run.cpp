@@ -11,6 +11,7 @@
 #include "coupler/mapping/interface_check.hpp"
 #include "coupler/report/status_view.hpp"
 #include "coupler/scheme/rest_watch.hpp"
+#include "coupler/supervise/participant_start.hpp"
 #include "proto/clock.hpp"
 #include "proto/result/provenance.hpp"
 
@@ -26,14 +27,6 @@ using proto::seconds_since;
 /// Generous bound of one message: names, a few fields, the registered operators.
 std::size_t largest_message(const std::vector<proto::RailSeat>& seats) {
   return 8 * sizeof(double) * 64 * proto::n_interface_values(seats) + (1u << 20);
-}
-
-Patience patience_of(const proto::Coupling& coupling) {
-  Patience patience;
-  patience.connect_s = coupling.connect_timeout_s;
-  patience.stall_s = coupling.stall_timeout_s;
-  patience.farewell_s = coupling.stall_timeout_s;
-  return patience;
 }
 
 std::vector<std::string> names_of(const CaseInput& input) {
@@ -93,13 +86,7 @@ void CoupledRun::record_frames() {
 
 void CoupledRun::start(int n_threads) {
   for (const auto& spec : find_participants(input_)) {
-    ChildSpec child{spec.name,
-                    spec.command,
-                    {{"QDEM_FEM_SESSION_TOKEN", endpoint_.session_token()}},
-                    folder_.file(spec.name + ".log")};
-    const std::vector<std::string> options{"--case", input_.file.path(), "--endpoint", endpoint_.address(),
-                                           "--out",  folder_.path(),     "--name",     spec.name};
-    child.command.insert(child.command.end(), options.begin(), options.end());
+    auto child = participant_process(spec, input_.file.path(), endpoint_, folder_.path());
     if (n_threads > 0) child.environment.push_back({"OMP_NUM_THREADS", std::to_string(n_threads)});
     supervisor_.add(spec.name, spec.command.front(), child.log_path);
     children_.start(child);
@@ -113,12 +100,14 @@ void CoupledRun::set_up() {
               hello.build_id);
     check_capabilities(name, hello.capabilities, input_.coupling);
     can_save_ = can_save_ && hello.capabilities.save_restore;
+    builds_[name] = hello.build_id;
   }
   supervisor_.set_stage("set-up");
   for (const auto& name : names_) {
     const auto registered = supervisor_.await<proto::Interface>(name, 0, true);
     check_registration(name, registered, input_);
     if (name == "qdem") laws_ = registered_pad(name, registered, input_.seats);
+    if (name == "fem") map_rail(registered);
   }
   configure();
   summary_.wall.start_up = seconds_since(begin_);
@@ -129,10 +118,21 @@ void CoupledRun::set_up() {
   judge_.advise(laws_);
 }
 
+void CoupledRun::map_rail(const proto::Interface& registered) {
+  auto map = map_to_pad("fem", registered, input_.seats);
+  if (!map) return;
+  for (const auto& note : map->notes()) map->carries_all_rigid_motions() ? log_.info("{}", note) : judge_.warn(note);
+  mapped_.emplace(fem_, std::move(*map));
+  rail_ = &*mapped_;
+}
+
 void CoupledRun::configure() {
   std::vector<std::uint64_t> tickets;  // all build their models at the same time
-  for (const auto& name : names_)
-    tickets.push_back(supervisor_.send(name, configure_request(name, input_, folder_.path(), laws_)));
+  for (const auto& name : names_) {
+    auto request = configure_request(name, input_, folder_.path(), laws_);
+    if (name == "fem" && mapped_) request.pad_map = mapped_->map().pad_map();
+    tickets.push_back(supervisor_.send(name, std::move(request)));
+  }
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const auto answer = supervisor_.await<proto::Configured>(names_[i], tickets[i], true);
     summary_.facts.insert(summary_.facts.end(), answer.facts.begin(), answer.facts.end());
@@ -193,9 +193,10 @@ InterfaceState CoupledRun::initial_values(std::optional<double>& largest_step_s)
     initial.rail_velocity = recorded_->initial_velocity();
     return initial;
   }
-  const auto rail = supervisor_.await<proto::Result>("fem", fem_ticket);
-  initial.rail_displacement = rail.data.get(field::rail_displacement);
-  initial.rail_velocity = rail.data.get(field::rail_velocity);
+  auto rail = supervisor_.await<proto::Result>("fem", fem_ticket).data;
+  if (mapped_) rail = at_cells(mapped_->map(), std::move(rail));
+  initial.rail_displacement = rail.get(field::rail_displacement);
+  initial.rail_velocity = rail.get(field::rail_velocity);
   return initial;
 }
 

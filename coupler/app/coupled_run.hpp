@@ -3,14 +3,17 @@
 
 #include <spdlog/logger.h>
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "coupler/app/case_input.hpp"
 #include "coupler/app/run_judge.hpp"
 #include "coupler/launch/children.hpp"
+#include "coupler/mapping/mapped_side.hpp"
 #include "coupler/record/checkpoint.hpp"
 #include "coupler/record/coupling_record.hpp"
 #include "coupler/record/frame_log.hpp"
@@ -49,8 +52,9 @@ class CoupledRun {
   /// Ends the initialise phase and takes the initial values.
   void begin();
   /// In place of initialise() and begin(): all three go on from what they saved. Throws proto::Error (bad_data, config)
-  /// when the set does not fit the case.
-  void resume(const Checkpoint& set);
+  /// when the set does not fit the case, or (unless `allowed` has "program") a participant is another program than the
+  /// one that saved its state.
+  void resume(const Checkpoint& set, const std::set<std::string>& allowed);
   /// The windows that are left. Stops early, with a checkpoint if the participants can save, between two windows: at
   /// the user's signal, or before `deadline`.
   MarchEnd march(std::optional<std::chrono::steady_clock::time_point> deadline);
@@ -67,11 +71,14 @@ class CoupledRun {
   bool has_checkpoint() const { return checkpointed_window_ >= 0; }
 
  private:
+  /// Puts the map between fem and the scheme when fem has points of its own.
+  void map_rail(const proto::Interface& registered);
   void configure();
   /// Ends the initialise phase; a step that the explicit side names replaces `largest_step_s`.
   InterfaceState initial_values(std::optional<double>& largest_step_s);
   proto::Attributes record_attributes() const;
   void save(std::int64_t window);
+  void check_builds(const Checkpoint& set, const std::set<std::string>& allowed) const;
   bool saves_at_all() const;
   bool save_is_due(std::int64_t window) const;
   void exchange(proto::StateArchive& archive);
@@ -103,7 +110,8 @@ class CoupledRun {
   Supervisor supervisor_;
   RemoteSide qdem_, fem_;
   std::optional<RecordedRail> recorded_;  ///< in the place of fem
-  Side* rail_;                            ///< fem, or the recorded one
+  std::optional<MappedSide> mapped_;      ///< around fem when that has points of its own
+  Side* rail_;                            ///< fem, the mapped or the recorded one
   RunJudge judge_;
   std::vector<proto::PadLaw> laws_;
   std::optional<double> configured_step_s_, initialise_step_s_;  ///< largest of the explicit side [s]
@@ -111,6 +119,7 @@ class CoupledRun {
   std::optional<CouplingRecord> record_;
   std::optional<FrameLog> frames_;
   InterfaceHash hash_;
+  std::map<std::string, std::string> builds_;  ///< of the participants, by name
   CheckpointSlots slots_;
   bool can_save_;  ///< all participants offer it, and the scheme's windows are theirs
   std::int64_t next_window_ = 0;

@@ -35,6 +35,7 @@ int command_line(int argc, char** argv) {
     auto* command = app.add_subcommand(name, what);
     command->add_option("CASE", options.case_path, "case file (TOML)")->required();
     command->add_option("--fem", options.fem, "rail and wheel instead of the case's: solid, beam, or a program");
+    command->add_option("--qdem", options.qdem, "stones and sleeper instead of the case's: a program");
     return command;
   };
   const auto add_runner = [&](const char* name, const char* what) {
@@ -51,9 +52,9 @@ int command_line(int argc, char** argv) {
       run->add_option("--resume", options.resume, "folder of an earlier run: go on from its newest checkpoint");
   run->get_option("CASE")->required(false);
   run->get_option("--out")->excludes(resume);
-  run->add_option("--allow", options.allowed, "what may differ from the run that is resumed: case, version")
+  run->add_option("--allow", options.allowed, "what may differ from the run that is resumed: case, version, program")
       ->delimiter(',')
-      ->check(CLI::IsMember({"case", "version"}))
+      ->check(CLI::IsMember({"case", "version", "program"}))
       ->needs(resume);
   run->add_option("--wall-limit", options.wall_limit_s,
                   "seconds of wall time after which to save a checkpoint and stop")

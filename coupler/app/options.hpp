@@ -16,13 +16,13 @@ struct RunOptions {
   std::string case_path;
   std::string out;                ///< empty: runs/<case>-<time>
   std::string scheme;             ///< a name, or empty: as the case says
-  std::string fem;                ///< see use_fem(), or empty: as the case says
+  std::string fem, qdem;          ///< see use_programs(), or empty: as the case says
   double window_s = 0.0;          ///< instead of the case's; 0: as the case says [s]
   int sub_cycle_factor = 0;       ///< likewise; 0: as the case says
   Refine over = Refine::window;   ///< of converge_case()
   int n_threads = 0;              ///< of each participant; 0: as the environment says
   std::string resume;             ///< folder of an earlier run to go on in; empty: a new run
-  std::set<std::string> allowed;  ///< of a resumed run: may differ ("case", "version")
+  std::set<std::string> allowed;  ///< of a resumed run: may differ ("case", "version", "program")
   double wall_limit_s = 0.0;      ///< stop in time with a checkpoint; 0: no limit [s]
   bool record = false;            ///< every frame goes to frames.log
   int n_restarts = 0;             ///< how often a run whose participant was lost goes on by itself
@@ -64,7 +64,7 @@ int report_runs(const ReportOptions& options);
 
 /// Validates the case: the coupler's own and the common sections, then each participant's `check`.
 /// Returns 0, or the exit code of the participant that refused (which has said why on stderr). Throws proto::Error.
-/// Of `options` the case and `fem` count.
+/// Of `options` the case, `fem` and `qdem` count.
 int check_case(const RunOptions& options);
 
 }  // namespace coupler

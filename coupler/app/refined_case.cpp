@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 
@@ -9,11 +11,15 @@
 
 namespace coupler {
 
-std::string with_finer_cells(const std::string& case_text, int factor) {
-  static const std::regex header(R"(^\s*\[+\s*([^\]\s]+)\s*\]+.*$)"),
+std::string with_finer_cells(const proto::CaseFile& original, int factor) {
+  static const std::regex header(R"(^\s*\[+\s*([^\]\s]+)\s*\]+.*$)"), case_folder(R"((^|\n)\s*case_folder\s*=)"),
       cells(R"(^(\s*cells\s*=\s*\[\s*)(\d+)(\s*,\s*)(\d+)(\s*\].*)$)");
-  std::istringstream lines(case_text);
+  std::istringstream lines(original.text());
   std::string line, table, result;
+  // The refined case lies elsewhere, what its relative paths name does not.
+  if (!std::regex_search(original.text(), case_folder))
+    result = fmt::format("case_folder = {}\n",
+                         nlohmann::json(std::filesystem::path(original.path()).parent_path().string()).dump());
   int n_seats = 0, n_refined = 0;
   while (std::getline(lines, line)) {
     std::smatch match;

@@ -32,6 +32,13 @@ void check_case(const proto::CaseFile& before, const proto::CaseFile& now, const
               "--allow case goes on with the changed one");
 }
 
+/// The text that made the set lies in the folder as case.toml: a set from elsewhere does not belong to it.
+void check_origin(const Checkpoint& set, const proto::CaseFile& before, const std::set<std::string>& allowed) {
+  if (set.manifest.case_hash == before.hash() || allowed.count("case") > 0) return;
+  throw Error(ExitCode::config, "the checkpoint was made with another case than the folder's", set.folder,
+              "--allow case takes it all the same");
+}
+
 Checkpoint newest_set(const RunFolder& folder) {
   std::vector<std::string> problems;
   auto set = CheckpointSlots(folder.path()).newest(problems);
@@ -49,7 +56,9 @@ Resumption find_resumption(const RunFolder& folder, const std::string& case_path
   auto set = newest_set(folder);
   auto input = read_case(case_path.empty() ? set.manifest.case_path : case_path);
   check_version(set.manifest, allowed);
-  check_case(proto::CaseFile::load(folder.file("case.toml")), input.file, allowed);
+  const auto before = proto::CaseFile::load(folder.file("case.toml"));
+  check_origin(set, before, allowed);
+  check_case(before, input.file, allowed);
   return {std::move(input), std::move(set)};
 }
 

@@ -61,6 +61,7 @@ struct Orders {
   int n_failures = 0;   ///< since the last checkpoint
   std::optional<Clock::time_point> deadline;
   std::optional<Checkpoint> set;  ///< to go on from
+  std::set<std::string> allowed;  ///< to differ from what made it
 };
 
 /// Sets status and failure of a run whose march ended during `stage`; returns the exit code.
@@ -78,7 +79,7 @@ int carry_out(CoupledRun& run, Summary& summary, const Orders& orders) {
   run.start(orders.n_threads);
   run.set_up();
   if (orders.set) {
-    run.resume(*orders.set);
+    run.resume(*orders.set, orders.allowed);
   } else {
     run.initialise();
     run.begin();
@@ -194,7 +195,7 @@ int run_in(const CaseInput& input, const RunFolder& folder, const Orders& orders
 
 /// What the command line says in place of the case.
 void apply(const RunOptions& options, proto::Coupling& coupling) {
-  use_fem(coupling, options.fem);
+  use_programs(coupling, options.fem, options.qdem);
   if (!options.scheme.empty()) coupling.scheme = proto::scheme_of(options.scheme);
   if (const auto why = proto::why_no_switch(coupling); !why.empty())
     throw proto::Error(proto::ExitCode::config, why, "--scheme", "give another coupling.audit.switch_to or action");
@@ -211,6 +212,7 @@ Orders orders_of(const RunOptions& options) {
   orders.n_threads = options.n_threads;
   orders.n_restarts = options.n_restarts;
   orders.record = options.record;
+  orders.allowed = options.allowed;
   if (options.wall_limit_s > 0.0)
     orders.deadline =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.wall_limit_s));

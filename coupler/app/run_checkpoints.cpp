@@ -1,6 +1,9 @@
 // The part of CoupledRun that saves and resumes.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "coupler/app/coupled_run.hpp"
 #include "proto/clock.hpp"
 #include "proto/result/provenance.hpp"
@@ -13,6 +16,19 @@ using Clock = std::chrono::steady_clock;
 
 using proto::seconds_since;
 
+/// Restored, what was warned of before comes first; what the resumed run has said again is there once.
+void exchange_warnings(proto::StateArchive& archive, std::vector<std::string>& warnings) {
+  std::string text = fmt::format("{}", fmt::join(warnings, "\n"));
+  archive("warnings", text);
+  if (!archive.restoring()) return;
+  std::vector<std::string> all;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) all.push_back(line);
+  for (const auto& now : warnings)
+    if (std::find(all.begin(), all.end(), now) == all.end()) all.push_back(now);
+  warnings = std::move(all);
+}
+
 }  // namespace
 
 void CoupledRun::exchange(proto::StateArchive& archive) {
@@ -22,6 +38,7 @@ void CoupledRun::exchange(proto::StateArchive& archive) {
   archive.expect_same("scheme/name", "the scheme", proto::name_of(input_.coupling.scheme));
   scheme_->exchange(archive);
   judge_.exchange(archive);
+  exchange_warnings(archive, summary_.warnings);
   coupler::exchange(archive, summary_.seats);
   std::uint64_t hash = hash_.value();
   archive("interface_hash", hash);
@@ -56,6 +73,7 @@ void CoupledRun::save(std::int64_t window) {
   manifest.case_hash = input_.file.hash();
   manifest.version = proto::project_version();
   manifest.source = proto::source_description();
+  manifest.builds = builds_;
   std::map<std::string, std::uint64_t> tickets;
   for (const auto& name : names_) tickets[name] = supervisor_.send(name, proto::Save{window, set.file(name)});
   for (const auto& [name, ticket] : tickets)
@@ -71,7 +89,20 @@ void CoupledRun::save(std::int64_t window) {
   log_.info("checkpoint after window {} in {}", window, set.folder);
 }
 
-void CoupledRun::resume(const Checkpoint& set) {
+void CoupledRun::check_builds(const Checkpoint& set, const std::set<std::string>& allowed) const {
+  for (const auto& [name, was] : set.manifest.builds) {
+    const auto is = builds_.find(name);
+    if (is == builds_.end() || is->second == was) continue;
+    log_.info("{} goes on from the state of another program: '{}', this is '{}'", name, was, is->second);
+    if (allowed.count("program") == 0)
+      throw proto::Error(
+          proto::ExitCode::config,
+          fmt::format("the checkpoint holds the state of another {}: '{}', this is '{}'", name, was, is->second),
+          set.folder, "--allow program lets it take over if it can read that state");
+  }
+}
+
+void CoupledRun::resume(const Checkpoint& set, const std::set<std::string>& allowed) {
   const auto& manifest = set.manifest;
   supervisor_.set_stage(fmt::format("resuming after window {}", manifest.window));
   if (!can_save_)
@@ -85,11 +116,12 @@ void CoupledRun::resume(const Checkpoint& set) {
   for (const auto& name : names_)
     if (manifest.hashes.count(name) == 0)
       throw proto::Error(proto::ExitCode::config, "the checkpoint holds no state of " + name, set.folder);
-  slots_.forget_later(set);
+  check_builds(set, allowed);
   std::map<std::string, std::uint64_t> tickets;
   for (const auto& name : names_)
     tickets[name] = supervisor_.send(name, proto::Restore{manifest.window, set.file(name), manifest.hashes.at(name)});
   for (const auto& [name, ticket] : tickets) supervisor_.await<proto::Restored>(name, ticket, true);
+  slots_.forget_later(set);
   scheme_ = make_scheme(input_.coupling.scheme, input_.coupling, {input_.coupling.window_s, 1, laws_});
   proto::StateReader own(set.file("coupler"), manifest.hashes.at("coupler"));
   exchange(own);

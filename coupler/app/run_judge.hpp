@@ -41,8 +41,10 @@ class RunJudge {
   /// The sums of audit and observation.
   void exchange(proto::StateArchive& archive);
 
- private:
+  /// To log, stderr and summary.
   void warn(const std::string& text);
+
+ private:
 
   const CaseInput& input_;
   spdlog::logger& log_;

@@ -4,7 +4,7 @@
 
 #include "coupler/mapping/interface_check.hpp"
 #include "coupler/scheme/one_way.hpp"
-#include "coupler/supervise/supervisor.hpp"
+#include "coupler/supervise/participant_start.hpp"
 
 namespace coupler {
 namespace {
@@ -84,12 +84,7 @@ proto::Configure configure_request(const std::string& name, const CaseInput& inp
   const bool robin = proto::uses_robin(input.coupling.scheme);
   request.mode = robin ? proto::LoadMode::robin : proto::LoadMode::prescribed_force;
   request.output_directory = out;
-  for (const auto& law : laws) {
-    request.stiffness.push_back(law.stiffness);
-    request.damping.push_back(law.damping);
-    request.preload.push_back(law.preload);
-    request.tension_cutoff.push_back(law.tension_cutoff);
-  }
+  set_pad(request, laws);
   return request;
 }
 

@@ -44,10 +44,11 @@ std::vector<std::string> window_fields(const Candidate& candidate, bool robin) {
   return names;
 }
 
-std::string wrong_shape(const proto::Result& result, const std::vector<std::string>& names, std::size_t n) {
+std::string wrong_shape(const Subject& subject, const proto::Result& result, const std::vector<std::string>& names) {
   for (const auto& name : names) {
     if (!result.data.has(name)) return fmt::format("window {}: the field '{}' is missing", result.window, name);
     const auto& values = result.data.get(name);
+    const auto n = subject.n_values_of(name);
     if (values.size() != n)
       return fmt::format("window {}: '{}' has {} values instead of {}", result.window, name, values.size(), n);
   }
@@ -101,18 +102,19 @@ Verdict units_and_shapes(Bench& bench) {
           fmt::format("the field '{}' is registered in '{}' instead of '{}'", spec.name, spec.unit, known->second));
   if (const auto text = wrong_pad(candidate, interface); !text.empty()) return fail(text);
   subject.bring_to(Stage::marching);
-  const auto n = proto::n_interface_values(candidate.seats);
   if (subject.initial().window != -1) return fail("the answer to Start is not of window -1");
-  if (const auto text = wrong_shape(subject.initial(), motion_fields(candidate), n); !text.empty()) return fail(text);
+  if (const auto text = wrong_shape(subject, subject.initial(), motion_fields(candidate)); !text.empty())
+    return fail(text);
   for (std::int64_t window = 0; window < 3; ++window) {
     const auto result = subject.solve(subject.request());
     if (result.window != window || result.iteration != 0 || result.phase != proto::Phase::march)
       return fail(
           fmt::format("window {} is answered as window {} iteration {}", window, result.window, result.iteration));
-    if (const auto text = wrong_shape(result, names, n); !text.empty()) return fail(text);
+    if (const auto text = wrong_shape(subject, result, names); !text.empty()) return fail(text);
     subject.commit();
   }
-  return pass(fmt::format("{} fields registered, {} values each", interface.fields.size(), n));
+  return pass(fmt::format("{} fields registered, {} values each", interface.fields.size(),
+                          subject.n_values_of(motion_fields(candidate).front())));
 }
 
 Verdict rigid_motion(Bench& bench) {
@@ -133,7 +135,7 @@ Verdict initialise(Bench& bench) {
   const auto& configured = subject.configured();
   const auto step =
       configured.largest_initialise_step_s ? configured.largest_initialise_step_s : configured.largest_step_s;
-  const Motion motion(initial.initial.data.get(motion_fields(candidate).front()),
+  const Motion motion(subject.at_cells(initial.initial.data.get(motion_fields(candidate).front())),
                       proto::interface_laws(candidate.seats), window_s, candidate.amplitude_m);
   double residual = 0.0;
   for (std::int64_t n = 0; n < 3; ++n) {
@@ -141,7 +143,7 @@ Verdict initialise(Bench& bench) {
     request.data = candidate.is_explicit()              ? motion.standing_rail()
                    : subject.hello().capabilities.robin ? motion.sleeper(0, 1.0)
                                                         : motion.force(0, 1.0);
-    const auto result = subject.ask<proto::Result>(request);
+    const auto result = subject.ask<proto::Result>(subject.on_wire(request));
     if (!result.residual) return fail(fmt::format("window {} has no residual", n));
     residual = *result.residual;
     if (residual < 0.0) return fail(fmt::format("window {} has the residual {}", n, residual));

@@ -12,6 +12,7 @@
 
 #include "coupler/launch/program_path.hpp"
 #include "coupler/scheme/coupling_scheme.hpp"
+#include "coupler/supervise/participant_start.hpp"
 #include "proto/clock.hpp"
 #include "proto/error.hpp"
 
@@ -21,18 +22,10 @@ namespace {
 namespace field = proto::field;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* token_name = "QDEM_FEM_SESSION_TOKEN";
 constexpr std::size_t largest_message_bytes = 64u << 20;
 constexpr std::uint64_t n_windows = 1000000000;
 
 using proto::seconds_since;
-
-Patience patience_of(const proto::Coupling& coupling) {
-  Patience patience;
-  patience.connect_s = coupling.connect_timeout_s;
-  patience.stall_s = patience.farewell_s = coupling.stall_timeout_s;
-  return patience;
-}
 
 /// Environment of a process; "" when it is gone or somebody else's.
 std::string environment_of(const std::string& pid) {
@@ -78,10 +71,7 @@ Subject::Subject(Bench& bench, const Settings& settings)
   endpoint_ = std::make_unique<proto::CouplerEndpoint>(sockets_.path(), largest_message_bytes, admission);
   supervisor_ = std::make_unique<Supervisor>(children_, *endpoint_, patience_of(candidate_.coupling));
   token_ = endpoint_->session_token();
-  ChildSpec child{name_, candidate_.command, {{token_name, token_}}, folder_ + "/" + name_ + ".log"};
-  const std::vector<std::string> options{
-      "--case", candidate_.case_path, "--endpoint", endpoint_->address(), "--out", folder_, "--name", name_};
-  child.command.insert(child.command.end(), options.begin(), options.end());
+  const auto child = participant_process({name_, candidate_.command}, candidate_.case_path, *endpoint_, folder_);
   supervisor_->add(name_, child.command.front(), child.log_path);
   supervisor_->set_stage("conformance");
   children_.start(child);
@@ -103,6 +93,7 @@ void Subject::take_step() {
     stage_ = Stage::connected;
   } else if (*stage_ == Stage::connected) {
     interface_ = supervisor_->await<proto::Interface>(name_, 0, true);
+    map_ = map_to_pad(name_, interface_, candidate_.seats);
     stage_ = Stage::registered;
   } else if (*stage_ == Stage::registered) {
     configure();
@@ -121,12 +112,8 @@ void Subject::configure() {
   request.windows = n_windows;
   request.mode = mode_;
   request.output_directory = folder_;
-  for (const auto& law : proto::interface_laws(candidate_.seats)) {
-    request.stiffness.push_back(law.stiffness);
-    request.damping.push_back(law.damping);
-    request.preload.push_back(law.preload);
-    request.tension_cutoff.push_back(law.tension_cutoff);
-  }
+  set_pad(request, proto::interface_laws(candidate_.seats));
+  if (map_) request.pad_map = map_->pad_map();
   configured_ = ask<proto::Configured>(request);
   step_s_ = configured_.largest_step_s;
   stage_ = Stage::configured;
@@ -137,7 +124,7 @@ void Subject::begin(const proto::Result& initial) {
   if (initial.largest_step_s) step_s_ = initial.largest_step_s;
   const auto& start =
       initial.data.get(candidate_.is_explicit() ? field::sleeper_displacement : field::rail_displacement);
-  motion_.emplace(start, proto::interface_laws(candidate_.seats), window_s_, candidate_.amplitude_m);
+  motion_.emplace(at_cells(start), proto::interface_laws(candidate_.seats), window_s_, candidate_.amplitude_m);
   stage_ = Stage::marching;
 }
 
@@ -148,7 +135,22 @@ proto::Advance Subject::request(double scale) const {
   result.data = candidate_.is_explicit() ? motion_->rail(window_, scale)
                 : robin                  ? motion_->sleeper(window_, scale)
                                          : motion_->force(window_, scale);
-  return result;
+  return on_wire(std::move(result));
+}
+
+std::vector<double> Subject::at_cells(const std::vector<double>& motion) const {
+  return map_ ? map_->to_cells(motion) : motion;
+}
+
+proto::Advance Subject::on_wire(proto::Advance request) const {
+  return map_ ? at_points(*map_, std::move(request)) : request;
+}
+
+std::size_t Subject::n_values_of(const std::string& name) const {
+  if (!map_ || proto::belongs_to_pad(name, mode_)) return proto::n_interface_values(candidate_.seats);
+  std::size_t n = 0;
+  for (const auto& seat : interface_.seats) n += seat.points.size();
+  return n;
 }
 
 proto::Result Subject::solve(const proto::Advance& request) {
@@ -245,7 +247,7 @@ void Subject::kill_process() const {
 }
 
 std::vector<int> Subject::processes() const {
-  const auto mark = fmt::format("{}={}", token_name, token_);
+  const auto mark = "=" + token_;
   std::vector<int> result;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const auto pid = entry.path().filename().string();

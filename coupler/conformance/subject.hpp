@@ -10,6 +10,7 @@
 #include "coupler/conformance/bench.hpp"
 #include "coupler/conformance/motion.hpp"
 #include "coupler/launch/children.hpp"
+#include "coupler/mapping/mapped_side.hpp"
 #include "coupler/record/socket_folder.hpp"
 #include "coupler/supervise/supervisor.hpp"
 #include "proto/session/coupler_endpoint.hpp"
@@ -64,6 +65,12 @@ class Subject {
   const proto::Configured& configured() const { return configured_; }
   const proto::Result& initial() const { return initial_; }  ///< answer to Start
   const Motion& motion() const { return *motion_; }
+  /// A motion that the participant gave, at the pad's cells.
+  std::vector<double> at_cells(const std::vector<double>& motion) const;
+  /// A request made for the cells, as the participant gets it.
+  proto::Advance on_wire(proto::Advance request) const;
+  /// Length of a field on the wire.
+  std::size_t n_values_of(const std::string& name) const;
   double window_s() const { return window_s_; }
 
   /// The request of the window and iteration that are due.
@@ -125,6 +132,7 @@ class Subject {
   proto::Interface interface_;
   proto::Configured configured_;
   proto::Result initial_, last_;
+  std::optional<PadMap> map_;
   std::optional<Motion> motion_;
   std::optional<double> step_s_;
   std::int64_t window_ = 0;

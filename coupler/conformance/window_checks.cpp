@@ -111,10 +111,10 @@ std::string wrong_path(const proto::Result& before, const proto::Result& result,
 }
 
 /// f_robin is the pad's law about the predicted sleeper at the window means; f_used is that less the carry.
-std::string wrong_robin(const std::vector<proto::PadLaw>& laws, const proto::Result& before,
+std::string wrong_robin(const Subject& subject, const std::vector<proto::PadLaw>& laws, const proto::Result& before,
                         const proto::Advance& request, const proto::Result& result) {
-  const auto& u0 = before.data.get(field::rail_displacement);
-  const auto& u1 = result.data.get(field::rail_displacement);
+  const auto u0 = subject.at_cells(before.data.get(field::rail_displacement));
+  const auto u1 = subject.at_cells(result.data.get(field::rail_displacement));
   const auto& x = request.data.get(field::sleeper_mean_displacement);
   const auto& y = request.data.get(field::sleeper_mean_velocity);
   const auto& carry = request.data.get(field::force_carry);
@@ -146,7 +146,7 @@ Verdict robin_law(Bench& bench) {
     const auto request = subject.request();
     const auto result = subject.solve(request);
     if (const auto text = wrong_path(before, result, request.window_s); !text.empty()) return fail(text);
-    if (const auto text = wrong_robin(laws, before, request, result); !text.empty()) return fail(text);
+    if (const auto text = wrong_robin(subject, laws, before, request, result); !text.empty()) return fail(text);
     subject.commit();
     before = result;
   }
@@ -232,7 +232,7 @@ Verdict unknown_field(Bench& bench) {
   for (const auto& wanted : {reference.windows[0], reference.windows[1]}) {
     auto request = subject.request();
     request.data.set("a_field_of_a_later_version",
-                     std::vector<double>(proto::n_interface_values(bench.candidate().seats), 1.0));
+                     std::vector<double>(subject.n_values_of("a_field_of_a_later_version"), 1.0));
     if (const auto text = difference(subject.solve(request), wanted); !text.empty())
       return fail("a field that it does not know changes the answer: " + text);
     subject.commit();

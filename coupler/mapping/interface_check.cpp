@@ -13,6 +13,7 @@ namespace {
 
 constexpr double point_tolerance_m = 1e-9;
 constexpr double operator_tolerance = 1e-12;
+constexpr std::size_t most_own_points = 256;  // of a seat: the operator is dense and travels in one message
 constexpr const char* motion_names[6] = {"translation x", "translation y", "translation z",
                                          "rotation x",    "rotation y",    "rotation z"};
 
@@ -28,6 +29,8 @@ std::string place(const std::string& side, const proto::RailSeat& seat) {
 void expect_size(std::size_t found, std::size_t wanted, const char* what, const std::string& where) {
   if (found != wanted) refuse(fmt::format("{} {} were registered instead of {}", found, what, wanted), where);
 }
+
+using Points = std::vector<Eigen::Vector3d>;
 
 void check_cells(const std::string& side, const proto::SeatRegistration& found, const proto::RailSeat& seat) {
   const std::size_t n = static_cast<std::size_t>(seat.n_cells());
@@ -46,6 +49,23 @@ void check_cells(const std::string& side, const proto::SeatRegistration& found, 
   }
 }
 
+/// Points of the participant's own lie on the pad or around it, and the pad's owner has none.
+void check_own_points(const std::string& side, const proto::SeatRegistration& found, const proto::RailSeat& seat) {
+  const auto where = place(side, seat);
+  if (!found.stiffness.empty()) refuse("the pad's owner registered points of its own instead of the cells", where);
+  if (found.points.empty() || found.points.size() > 3 * most_own_points)
+    refuse(fmt::format("{} points of its own were registered, between 1 and {} can be mapped", found.points.size() / 3,
+                       most_own_points),
+           where);
+  expect_size(found.points.size(), 3 * found.weights.size(), "point coordinates", where);
+  const double reach = 2.0 * seat.half_lengths.norm();
+  for (const auto& point : registered_points(found))
+    if (!((point - seat.origin).norm() <= reach))
+      refuse(fmt::format("a point of its own, ({}, {}, {}) m, lies more than {} m from the seat's origin", point[0],
+                         point[1], point[2], reach),
+             where);
+}
+
 /// Displacement of a point at `arm` from the seat's origin under unit motion `motion` (three translations, three
 /// rotations).
 Eigen::Vector3d rigid_motion(int motion, const Eigen::Vector3d& arm) {
@@ -53,14 +73,16 @@ Eigen::Vector3d rigid_motion(int motion, const Eigen::Vector3d& arm) {
   return motion < 3 ? axis : Eigen::Vector3d(axis.cross(arm));
 }
 
-void check_rigid_response(const std::string& side, const proto::SeatRegistration& found, const proto::RailSeat& seat) {
-  const int n = seat.n_cells();
+void check_rigid_response(const std::string& side, const proto::SeatRegistration& found, const proto::RailSeat& seat,
+                          const Points& points) {
+  const int n = static_cast<int>(points.size());
   const auto where = place(side, seat);
   expect_size(found.rigid_response.size(), 18 * static_cast<std::size_t>(n), "rigid responses", where);
   const double size = seat.half_lengths.norm();
   for (int motion = 0; motion < 6; ++motion)
     for (int c = 0; c < n; ++c) {
-      const Eigen::Vector3d wanted = seat.axes.transpose() * rigid_motion(motion, seat.cell_point(c) - seat.origin);
+      const Eigen::Vector3d wanted =
+          seat.axes.transpose() * rigid_motion(motion, points[static_cast<std::size_t>(c)] - seat.origin);
       for (int axis = 0; axis < 3; ++axis) {
         const double value = found.rigid_response[static_cast<std::size_t>((motion * n + c) * 3 + axis)];
         if (!(std::abs(value - wanted[axis]) <= operator_tolerance * (motion < 3 ? 1.0 : size)))
@@ -72,16 +94,16 @@ void check_rigid_response(const std::string& side, const proto::SeatRegistration
     }
 }
 
-void check_force_resultants(const std::string& side, const proto::SeatRegistration& found,
-                            const proto::RailSeat& seat) {
-  const int n = seat.n_cells();
+void check_force_resultants(const std::string& side, const proto::SeatRegistration& found, const proto::RailSeat& seat,
+                            const Points& points) {
+  const int n = static_cast<int>(points.size());
   const auto where = place(side, seat);
   expect_size(found.force_resultants.size(), 18 * static_cast<std::size_t>(n), "force resultants", where);
   const double size = seat.half_lengths.norm();
   for (int c = 0; c < n; ++c)
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d force = seat.axes.col(axis);
-      const Eigen::Vector3d moment = (seat.cell_point(c) - seat.origin).cross(force);
+      const Eigen::Vector3d moment = (points[static_cast<std::size_t>(c)] - seat.origin).cross(force);
       for (int k = 0; k < 6; ++k) {
         const double value = found.force_resultants[static_cast<std::size_t>((c * 3 + axis) * 6 + k)];
         const double wanted = k < 3 ? force[k] : moment[k - 3];
@@ -110,6 +132,19 @@ double coefficient(const std::vector<double>& values, std::size_t i, const char*
 
 }  // namespace
 
+std::vector<Eigen::Vector3d> registered_points(const proto::SeatRegistration& seat) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i + 2 < seat.points.size(); i += 3)
+    points.emplace_back(seat.points[i], seat.points[i + 1], seat.points[i + 2]);
+  return points;
+}
+
+std::vector<Eigen::Vector3d> cell_points(const proto::RailSeat& seat) {
+  std::vector<Eigen::Vector3d> points;
+  for (int c = 0; c < seat.n_cells(); ++c) points.push_back(seat.cell_point(c));
+  return points;
+}
+
 void check_interface(const std::string& side, const proto::Interface& registered,
                      const std::vector<proto::RailSeat>& seats) {
   expect_size(registered.seats.size(), seats.size(), "rail seats", "interface of " + side);
@@ -117,9 +152,10 @@ void check_interface(const std::string& side, const proto::Interface& registered
     const auto& found = registered.seats[s];
     if (found.name != seats[s].name)
       refuse(fmt::format("seat {} was registered as '{}'", s, found.name), place(side, seats[s]));
-    check_cells(side, found, seats[s]);
-    check_rigid_response(side, found, seats[s]);
-    check_force_resultants(side, found, seats[s]);
+    found.own_points ? check_own_points(side, found, seats[s]) : check_cells(side, found, seats[s]);
+    const auto points = found.own_points ? registered_points(found) : cell_points(seats[s]);
+    check_rigid_response(side, found, seats[s], points);
+    check_force_resultants(side, found, seats[s], points);
   }
 }
 

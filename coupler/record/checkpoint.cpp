@@ -37,6 +37,7 @@ std::string text_of(const Manifest& manifest) {
             {"case_hash", hex(manifest.case_hash)},
             {"version", manifest.version},
             {"source", manifest.source}};
+  for (const auto& [name, build] : manifest.builds) root["builds"][name] = build;
   for (const auto& [name, hash] : manifest.hashes) root["files"][name] = hex(hash);
   return root.dump(2) + "\n";
 }
@@ -51,6 +52,8 @@ Manifest manifest_from(const Json& root) {
   manifest.case_hash = hash_from(root.at("case_hash"));
   manifest.version = root.at("version");
   manifest.source = root.at("source");
+  if (root.contains("builds"))
+    for (const auto& [name, build] : root.at("builds").items()) manifest.builds[name] = build;
   for (const auto& [name, hash] : root.at("files").items()) manifest.hashes[name] = hash_from(hash);
   return manifest;
 }

@@ -19,6 +19,7 @@ struct Manifest {
   std::string case_path;  ///< absolute; the case's text is the run folder's case.toml
   std::uint64_t case_hash = 0;
   std::string version, source;                  ///< of the coupler
+  std::map<std::string, std::string> builds;    ///< of the participants, by name, as their Hello said
   std::map<std::string, std::uint64_t> hashes;  ///< XXH3-64 of each file, by the name of who saved it
 };
 

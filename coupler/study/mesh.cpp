@@ -33,8 +33,9 @@ Mesh read_mesh(const proto::ResultReader& file) {
   };
   for (const double body : cell_values("body")) mesh.bodies.push_back(static_cast<std::int64_t>(body));
   for (const double sleeper : cell_values("sleeper")) mesh.sleeper.push_back(sleeper != 0);
+  for (const double ground : cell_values("ground")) mesh.ground.push_back(ground != 0);
   bool whole = mesh.offsets.size() == mesh.n_cells() + 1 && mesh.bodies.size() == mesh.n_cells() &&
-               mesh.sleeper.size() == mesh.n_cells();
+               mesh.sleeper.size() == mesh.n_cells() && mesh.ground.size() == mesh.n_cells();
   for (std::size_t cell = 0; whole && cell < mesh.n_cells(); ++cell) {
     const std::size_t wanted = mesh.types[cell] == 10 ? 4 : mesh.types[cell] == 12 ? 8 : 0;
     whole = mesh.offsets[cell] + wanted <= mesh.offsets[cell + 1];

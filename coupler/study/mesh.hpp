@@ -16,7 +16,9 @@ struct Mesh {
   std::vector<std::uint8_t> types;     ///< of VTK: 10 tetrahedron, 12 hexahedron; other cells have no faces here
   std::vector<std::int64_t> bodies;    ///< [cells]; 0 where the file names no bodies
   std::vector<bool> sleeper;           ///< [cells]
+  std::vector<bool> ground;            ///< [cells] of a layer of it
 
+  bool is_stone(std::size_t cell) const { return !sleeper[cell] && !ground[cell]; }  ///< of qdem.h5
   std::size_t n_cells() const { return types.size(); }
   std::size_t n_points() const { return points.size() / 3; }
 };

@@ -242,7 +242,7 @@ std::set<int> RunFiles::stone_numbers() const {
   if (!qdem_) return numbers;
   const Mesh mesh = read_mesh(*qdem_);
   for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
-    if (!mesh.sleeper[cell]) numbers.insert(static_cast<int>(mesh.bodies[cell]));
+    if (mesh.is_stone(cell)) numbers.insert(static_cast<int>(mesh.bodies[cell]));
   }
   return numbers;
 }

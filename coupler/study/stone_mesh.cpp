@@ -62,7 +62,7 @@ StoneMesh::StoneMesh(const proto::ResultReader& qdem) {
   std::map<std::int64_t, std::int64_t> numbers;  // of a body among the stones
   in_stone_.resize(mesh.n_cells());
   for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
-    in_stone_[cell] = !mesh.sleeper[cell];
+    in_stone_[cell] = mesh.is_stone(cell);
     if (in_stone_[cell]) numbers[mesh.bodies[cell]] = 0;
   }
   std::int64_t next = 0;

@@ -62,7 +62,7 @@ void check_case(const FemCase& input, const FemProgram& program) {
   band.at(input.wheel.start +
           input.wheel.speed * input.coupling.window_s * static_cast<double>(input.coupling.n_windows));
   program.build_wheel(input.wheel);
-  Hertz(input.wheel.radius, input.wheel.rail_crown_radius, input.wheel.wheel, input.wheel.rail);
+  make_wheel_contact(input.wheel, input.coupling.window_s);
 }
 
 void print_static(const FemCase& input, const FemProgram& program) {
@@ -89,7 +89,7 @@ void run_alone(const FemCase& input, const FemProgram& program, const std::strin
   const TrackSystem& system = rail->track();
   print_section(*rail, input.fem);
   WheelTrack track = make_track(input, program, *rail);
-  FemRecord record(out, program.name, input.file, *rail, input.coupling.window_s,
+  FemRecord record(out, program.name, input.file, *rail, track, input.coupling.window_s,
                    windows_per_output(input.coupling.output_interval_s, input.coupling.window_s));
   record.begin(track);
   double largest = 0.0, smallest = input.wheel.static_load;

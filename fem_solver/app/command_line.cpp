@@ -26,12 +26,19 @@ int run(int argc, char** argv, const FemProgram& program) {
   auto* alone = app.add_subcommand("run", "run the wheel over the rail alone, every seat on the support model");
   alone->add_option("case", path, "case file")->required();
   alone->add_option("--out", out, "output folder; must exist");
+  auto* contact = app.add_subcommand("contact", "one contact of wheel and rail: patch, stick and slip, creep forces");
+  contact->add_option("case", path, "case file with [contact]")->required();
+  contact->add_option("--out", out, "output folder; must exist");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(proto::ExitCode::usage);
   }
 
+  if (contact->parsed()) {
+    run_contact(path, program.name, program.blocks, out);
+    return 0;
+  }
   auto input = read_fem_case(path);
   if (check->parsed()) {
     check_case(input, program);

@@ -165,6 +165,9 @@ WheelSettings read_wheel(const proto::CaseFile& file, const Material& rail) {
   w.suspension = read_suspension(section.section("suspension"), w);
   w.kind = section.choice_or("model", "mass", {"mass", "solid"}) == "mass" ? WheelKind::mass : WheelKind::solid;
   w.solid = read_solid_wheel(section.section("solid"));
+  if (section.choice_or("contact", "hertz", {"hertz", "patch"}) == "patch")
+    w.patch = read_patch(section.section("patch"), w.radius, w.rail_crown_radius);
+  w.longest_contact_loss = section.number_or("longest_contact_loss_s", w.longest_contact_loss, Range::positive());
   section.finish();
   return w;
 }

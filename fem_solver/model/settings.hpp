@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fem_solver/contact/hertz.hpp"
+#include "fem_solver/contact/patch_settings.hpp"
 #include "fem_solver/model/irregularity.hpp"
 #include "fem_solver/model/material.hpp"
 #include "fem_solver/model/rail_section.hpp"
@@ -85,6 +88,8 @@ struct WheelSettings {
   SuspensionSettings suspension;
   WheelKind kind = WheelKind::mass;
   SolidWheelSettings solid;
+  std::optional<PatchSettings> patch;  ///< the contact resolved; none: Hertz's spring
+  double longest_contact_loss = std::numeric_limits<double>::infinity();  ///< a longer one ends the run [s]
 
   /// Relative displacement that rail and wheel impose at x [m].
   double height_at(double x) const { return irregularity.height_at(x) + defect.height_at(x); }
@@ -99,9 +104,10 @@ struct WheelSettings {
 FemSettings read_fem(const proto::CaseFile& file, const std::vector<proto::RailSeat>& seats);
 
 /// Reads `[wheel]`: speed_m_per_s, start_m, static_load_n, unsprung_mass_kg, radius_m, rail_crown_radius_m, young_pa,
-/// poisson, model; [wheel.irregularity]: kind, depth_m, length_m, position_m | amplitude_m, wavelength_m, begin_m |
-/// file; [wheel.defect]: kind, length_m, depth_m, position_m | amplitude_m, order, begin_m; [wheel.suspension]:
-/// stiffness_n_per_m, damping_ns_per_m, sprung_mass_kg; [wheel.solid]: tread, web_file, density_kg_per_m3, loss_factor.
+/// poisson, model, contact ("hertz" or "patch" with [wheel.patch]), longest_contact_loss_s; [wheel.irregularity]: kind,
+/// depth_m, length_m, position_m | amplitude_m, wavelength_m, begin_m | file; [wheel.defect]: kind, length_m, depth_m,
+/// position_m | amplitude_m, order, begin_m; [wheel.suspension]: stiffness_n_per_m, damping_ns_per_m, sprung_mass_kg;
+/// [wheel.solid]: tread, web_file, density_kg_per_m3, loss_factor.
 WheelSettings read_wheel(const proto::CaseFile& file, const Material& rail);
 
 }  // namespace fem

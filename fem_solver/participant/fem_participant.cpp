@@ -168,7 +168,7 @@ void FemParticipant::rollback(const proto::Rollback&) {
 
 template <class... Saved>
 void FemParticipant::open_record(Saved&... saved) {
-  record_ = std::make_unique<FemRecord>(output_directory_, program_, input_.file, *rail_, window_s_,
+  record_ = std::make_unique<FemRecord>(output_directory_, program_, input_.file, *rail_, *track_, window_s_,
                                         windows_per_output(input_.coupling.output_interval_s, window_s_), saved...);
 }
 

@@ -16,7 +16,7 @@ constexpr double tolerance = 1e-11;
 struct Evaluation {
   Eigen::VectorXd residual;  // of the pads, then of the contact
   Eigen::VectorXd tangent;   // d law/d w of each cell, 0 where only the clip pulls
-  double contact_tangent = 0.0;
+  double contact_tangent = 0.0, approach = 0.0;
 };
 
 Evaluation evaluate(const InterfaceProblem& p, const Eigen::VectorXd& unknowns) {
@@ -24,20 +24,20 @@ Evaluation evaluate(const InterfaceProblem& p, const Eigen::VectorXd& unknowns) 
   const Eigen::VectorXd used = unknowns.head(n) - p.carry;
   const double contact = unknowns[n];
   const Eigen::VectorXd w = p.free_velocity - p.compliance * used - p.contact_column * contact;
-  Evaluation e{Eigen::VectorXd(n + 1), Eigen::VectorXd(n), 0.0};
+  Evaluation e{Eigen::VectorXd(n + 1), Eigen::VectorXd(n)};
   for (int i = 0; i < n; ++i) {
     const double gap = p.gap_0[i] + p.time_factor * w[i], rate = p.rate_factor * (w[i] - p.sleeper_velocity[i]);
     e.residual[i] = unknowns[i] - p.laws[i].force(gap, rate);
     e.tangent[i] = p.laws[i].tangent(gap, rate, p.time_factor, p.rate_factor);
   }
-  if (p.coefficient == 0.0) {
+  if (!p.contact_law) {
     e.residual[n] = contact - p.given_contact;
     return e;
   }
-  const double approach = p.approach_0 - p.time_factor * p.contact_column.dot(used) - p.contact_slope * contact;
-  const double root = std::sqrt(std::max(approach, 0.0));
-  e.residual[n] = contact - p.coefficient * root * root * root;
-  e.contact_tangent = 1.5 * p.coefficient * root;
+  e.approach = p.approach_0 - p.time_factor * p.contact_column.dot(used) - p.contact_slope * contact;
+  const ContactForce law = p.contact_law(e.approach);
+  e.residual[n] = contact - law.force;
+  e.contact_tangent = law.tangent;
   return e;
 }
 
@@ -64,7 +64,7 @@ InterfaceSolution solve_interface(const InterfaceProblem& problem, const Interfa
     history << ' ' << size;
     if (!std::isfinite(size)) break;
     if (size <= tolerance * std::max(1.0, unknowns.lpNorm<Eigen::Infinity>()))
-      return {unknowns.head(n), std::max(unknowns[n], 0.0), iteration};
+      return {unknowns.head(n), std::max(unknowns[n], 0.0), iteration, now.approach};
     const Eigen::VectorXd step = jacobian(problem, now).partialPivLu().solve(now.residual);
     double part = 1.0;
     Eigen::VectorXd tried = unknowns - step;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "fem_solver/contact/wheel_contact.hpp"
 #include "fem_solver/model/interface_law.hpp"
 
 namespace fem {
@@ -12,7 +13,7 @@ namespace fem {
 ///
 ///     w    = free_velocity - compliance f_used - contact_column F          mean velocity of the cells
 ///     f    = law(gap_0 + time_factor w, w - sleeper_velocity)              f_used = f - carry
-///     delta = approach_0 - contact_column' (time_factor f_used) - contact_slope F,   F = coefficient max(delta, 0)^1.5
+///     delta = approach_0 - contact_column' (time_factor f_used) - contact_slope F,   F = contact_law(delta)
 ///
 /// `gap_0` and `approach_0` hold what does not depend on this window's unknowns.
 struct InterfaceProblem {
@@ -27,7 +28,7 @@ struct InterfaceProblem {
   Eigen::VectorXd contact_column;    ///< velocity of the cells per contact force [m/(N s)]
   double approach_0 = 0.0;           ///< [m]
   double contact_slope = 0.0;        ///< total flexibility of band, wheel and indentation, minus d delta/d F [m/N]
-  double coefficient = 0.0;          ///< C_H [N/m^1.5]; 0: the contact force is `given_contact`
+  ContactLaw contact_law;            ///< none: the contact force is `given_contact`
   double given_contact = 0.0;        ///< [N]
 };
 
@@ -35,6 +36,7 @@ struct InterfaceSolution {
   Eigen::VectorXd force;  ///< f before the carry [N]
   double contact = 0.0;   ///< F >= 0 [N]
   int iterations = 0;
+  double approach = 0.0;  ///< delta where there is a contact law [m]
 };
 
 /// Semi-smooth Newton from `guess`, step halved while the residual grows. Converged when every residual is below

@@ -32,7 +32,7 @@ StaticState Statics::solve(const std::vector<proto::PadLaw>& laws, const Eigen::
   p.free_velocity = p.sleeper_velocity = p.carry = p.contact_column = Eigen::VectorXd::Zero(n);
   p.compliance = rows * columns;
   p.time_factor = 1.0, p.rate_factor = 0.0;
-  state.pad_force = solve_interface(p, {state.pad_force, 0.0, 0}, "fem: static state").force;
+  state.pad_force = solve_interface(p, {state.pad_force}, "fem: static state").force;
   state.displacement -= columns * state.pad_force;
   return state;
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "proto/error.hpp"
+
 namespace fem {
 
 WheelTrack::Stepper::Stepper(const TrackSystem& system, double step, double mass_damping)
@@ -23,6 +25,7 @@ WheelTrack::WheelTrack(const RailModel& rail, const FemSettings& fem, const Whee
       laws_(std::move(laws)),
       band_(rail.band()),
       hertz_(wheel.radius, wheel.rail_crown_radius, wheel.wheel, wheel.rail),
+      contact_(make_wheel_contact(wheel, step)),
       statics_(system_, band_),
       indentation_(rail.indentation([this](const Eigen::VectorXd& load) { return statics_.flexibility(load); })),
       march_(system_, step, 0.0) {
@@ -32,20 +35,21 @@ WheelTrack::WheelTrack(const RailModel& rail, const FemSettings& fem, const Whee
 void WheelTrack::rest(const Eigen::VectorXd& sleeper_displacement) {
   const auto laws = sleeper_displacement.size() > 0 ? laws_ : std::vector<proto::PadLaw>{};
   const StaticState s = statics_.solve(laws, sleeper_displacement, band_.at(wheel_.start), wheel_.static_load);
-  state_.last = {s.pad_force, wheel_.static_load, 0};
+  state_.last = {s.pad_force, wheel_.static_load};
   set_rest(s.displacement);
 }
 
 void WheelTrack::set_rest(const Eigen::VectorXd& displacement) {
   state_.track = march_.newmark.state_at_rest(displacement);
-  state_.windows = 0;
+  state_.windows = state_.windows_open = 0;
   state_.wheel_position = wheel_.start;
   // The contact takes the excess out of the rail's descent, here as in add_wheel().
   const BandWeights place = band_.at(wheel_.start);
   const double rail = band_.read(place, displacement) + excess_flexibility(place) * wheel_.static_load;
-  const double wheel = rail + wheel_.height_at(wheel_.start) -
-                       std::pow(wheel_.static_load / hertz_.coefficient(), 2.0 / 3.0) +
-                       wheel_model_.local_flexibility * wheel_.static_load;
+  double approach = 0.0;
+  state_.patch = contact_->at_rest(wheel_.start, approach);
+  const double wheel =
+      rail + wheel_.height_at(wheel_.start) - approach + wheel_model_.local_flexibility * wheel_.static_load;
   state_.wheel = wheel_at_rest(wheel_model_, wheel);
 }
 
@@ -96,7 +100,7 @@ void WheelTrack::add_wheel(InterfaceProblem& problem, const BandWeights& place, 
                            const Eigen::VectorXd& response, const Eigen::VectorXd& free) const {
   const double half = step_ / 2;
   const double rail_free = band_.read(place, state_.track.displacement) + half * band_.read(place, free);
-  problem.coefficient = hertz_.coefficient();
+  problem.contact_law = contact_->law(position, state_.patch);
   problem.approach_0 = rail_free + wheel_.height_at(position) - wheel_stepper_.free_displacement(state_.wheel);
   problem.contact_slope = half * (band_.read(place, response) + wheel_stepper_.response()) - excess_flexibility(place) -
                           wheel_model_.local_flexibility;
@@ -154,10 +158,24 @@ WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Whe
   band_.add_load(place, -solution.contact, right_side);
   stepper.newmark.finish(state_.track, velocity, right_side);
 
-  if (wheel == Wheel::rolling) wheel_stepper_.finish(state_.wheel, solution.contact);
+  if (wheel == Wheel::rolling) {
+    contact_->roll(position, solution.approach, state_.patch);
+    wheel_stepper_.finish(state_.wheel, solution.contact);
+  }
   state_.wheel_position = position;
   state_.last = solution;
+  if (wheel == Wheel::rolling) watch_contact_loss(where);
   return output;
+}
+
+void WheelTrack::watch_contact_loss(const std::string& where) {
+  state_.windows_open = state_.last.contact > 0 ? 0 : state_.windows_open + 1;
+  const double open = static_cast<double>(state_.windows_open) * step_;
+  if (open > wheel_.longest_contact_loss)
+    throw proto::Error(
+        proto::ExitCode::numerics,
+        "the wheel has been off the rail for " + std::to_string(open) + " s, longer than the case allows", where,
+        "raise wheel.longest_contact_loss_s, or see what throws the wheel up");
 }
 
 }  // namespace fem

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fem_solver/contact/hertz.hpp"
+#include "fem_solver/contact/patch_contact.hpp"
 #include "fem_solver/model/settings.hpp"
 #include "fem_solver/rail/rail_model.hpp"
 #include "fem_solver/time/interface_solve.hpp"
@@ -34,13 +35,15 @@ struct WindowOutput {
 /// Mutable part of the simulation.
 struct RunState {
   TrackState track;
-  WheelMotion wheel;            ///< from touching the undeformed rail without load, up
-  std::int64_t windows = 0;     ///< since time 0
-  InterfaceSolution last;       ///< guess for the next window
-  double wheel_position = 0.0;  ///< x of the contact of the last window's middle, or the start [m]
+  WheelMotion wheel;              ///< from touching the undeformed rail without load, up
+  std::int64_t windows = 0;       ///< since time 0
+  InterfaceSolution last;         ///< guess for the next window
+  PatchState patch;               ///< of a resolved contact
+  std::int64_t windows_open = 0;  ///< for how many windows the wheel has been off the rail
+  double wheel_position = 0.0;    ///< x of the contact of the last window's middle, or the start [m]
 };
 
-/// A wheel under its static load runs along the rail on a Hertz spring. Wheel and rail share one window equation:
+/// A wheel under its static load runs along the rail on its contact. Wheel and rail share one window equation:
 /// average acceleration, contact evaluated at mid-window position and mean approach; it may open and does not stick.
 class WheelTrack {
  public:
@@ -69,7 +72,7 @@ class WheelTrack {
   /// Damping off, velocities to zero, clock to zero; displacements and forces stay.
   void start();
 
-  /// One window of the march.
+  /// One window of the march. Throws proto::Error (numerics) when the contact is open for longer than the case allows.
   WindowOutput march(const WindowInput& input);
 
   const RunState& state() const { return state_; }
@@ -78,6 +81,8 @@ class WheelTrack {
   double contact_force() const { return state_.last.contact; }
   double position_at(double window) const { return wheel_.start + wheel_.speed * step_ * window; }
   const Hertz& hertz() const { return hertz_; }
+  /// The resolved contact, if the case has one.
+  const PatchContact* patch() const { return dynamic_cast<const PatchContact*>(contact_.get()); }
   const Statics& statics() const { return statics_; }
   const RunningBand& band() const { return band_; }
   /// RailModel::indentation() [m/N].
@@ -104,6 +109,7 @@ class WheelTrack {
   void add_wheel(InterfaceProblem& problem, const BandWeights& place, double position, const Eigen::VectorXd& response,
                  const Eigen::VectorXd& free) const;
   void set_rest(const Eigen::VectorXd& displacement);
+  void watch_contact_loss(const std::string& where);
   double static_residual(const TrackState& before, const Eigen::VectorXd& force_used) const;
 
   const TrackSystem& system_;
@@ -114,6 +120,7 @@ class WheelTrack {
   std::vector<proto::PadLaw> laws_;
   const RunningBand& band_;
   Hertz hertz_;
+  std::unique_ptr<WheelContact> contact_;
   Statics statics_;
   double indentation_;
   Stepper march_;

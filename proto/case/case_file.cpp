@@ -15,6 +15,7 @@ namespace proto {
 namespace {
 
 constexpr std::uintmax_t largest_file = 1 << 20;
+constexpr const char* case_folder_key = "case_folder";
 
 std::string read_text(const std::filesystem::path& path) {
   std::error_code failure;
@@ -46,6 +47,22 @@ toml::table parse(const std::string& text, const std::string& path) {
   }
 }
 
+/// `case_folder`, or the folder of the file.
+std::string folder_of(const CaseDocument& document) {
+  const auto* node = document.root.get(case_folder_key);
+  if (!node) return std::filesystem::path(document.path).parent_path().string();
+  const auto begin = node->source().begin;
+  const auto where =
+      document.path + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) + ": " + case_folder_key;
+  const auto folder = node->value<std::string>();
+  if (!folder || !std::filesystem::path(*folder).is_absolute())
+    throw Error(ExitCode::config, "an absolute path is wanted", where, "remove it: relative paths start at the file");
+  std::error_code failure;
+  if (!std::filesystem::is_directory(*folder, failure))
+    throw Error(ExitCode::missing_input, "there is no folder '" + *folder + "'", where);
+  return *folder;
+}
+
 }  // namespace
 
 CaseFile::CaseFile(std::shared_ptr<Section::Data> root) : root_(std::move(root)) {}
@@ -55,6 +72,7 @@ CaseFile CaseFile::load(const std::string& path) {
   document->path = std::filesystem::absolute(path).lexically_normal().string();
   document->text = read_text(document->path);
   document->root = parse(document->text, document->path);
+  document->folder = folder_of(*document);
   auto root = std::make_shared<Section::Data>();
   root->table = &document->root;
   root->document = std::move(document);
@@ -90,7 +108,7 @@ std::uint64_t CaseFile::hash() const {
 void CaseFile::refuse_unknown_sections(const std::vector<std::string>& known) const {
   for (const auto& [key, node] : *root_->table) {
     const std::string name(key.str());
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (name == case_folder_key || std::find(known.begin(), known.end(), name) != known.end()) continue;
     const auto nearest = nearest_name(name, known);
     throw Error(ExitCode::config, "unknown section", root_->where(key.source(), name),
                 nearest.empty() ? "remove it" : "did you mean '" + nearest + "'?");

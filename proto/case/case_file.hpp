@@ -56,8 +56,8 @@ class Section {
   std::vector<std::int64_t> integers(const std::string& key, std::size_t length = 0, Range range = Range::any()) const;
   std::vector<std::string> texts_or(const std::string& key, const std::vector<std::string>& fallback) const;
 
-  /// A path as written, relative paths resolved against the folder of the case file. Throws missing_input if there is
-  /// no such file.
+  /// A path as written, relative paths resolved against the folder of the case file, or against the one that its
+  /// top-level key `case_folder` names. Throws missing_input if there is no such file.
   std::string existing_path(const std::string& key) const;
 
   /// Files that the text of a required key names, ascending by name: one file, all files of a folder that have one of

@@ -153,7 +153,7 @@ std::vector<std::string> Section::texts_or(const std::string& key, const std::ve
 
 std::string Section::existing_path(const std::string& key) const {
   const std::filesystem::path written = text(key);
-  const auto base = std::filesystem::path(data_->document->path).parent_path();
+  const auto base = std::filesystem::path(data_->document->folder);
   const auto path = (written.is_absolute() ? written : base / written).lexically_normal();
   std::error_code failure;
   if (!std::filesystem::exists(path, failure))

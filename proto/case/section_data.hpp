@@ -15,6 +15,7 @@ namespace proto {
 /// The parsed file, kept alive by every section of it.
 struct CaseDocument {
   std::string path;
+  std::string folder;  ///< that relative paths start from, absolute
   std::string text;
   toml::table root;
 };

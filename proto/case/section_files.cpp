@@ -36,7 +36,7 @@ std::string file_ending(const std::string& path) {
 std::vector<std::string> Section::matching_files(const std::string& key,
                                                  const std::vector<std::string>& endings) const {
   const fs::path written = text(key);
-  const auto path = (fs::path(data_->document->path).parent_path() / written).lexically_normal();
+  const auto path = (fs::path(data_->document->folder) / written).lexically_normal();
   std::error_code failure;
   const bool is_folder = fs::is_directory(path, failure);
   const auto found = is_folder ? files_of(path, "*") : files_of(path.parent_path(), path.filename().string());

@@ -99,6 +99,7 @@ class Side : public Participant {
 
   /// What a restart needs, for both ways.
   void exchange(StateArchive& archive) {
+    archive.expect_same("participant", "the oscillator's side", fact_prefix_);
     archive("displacement", kept_.displacement);
     archive("velocity", kept_.velocity);
     archive("windows", n_windows_);

@@ -44,10 +44,10 @@ std::uint64_t random_session() {
 std::string why_not_welcome(const Hello& hello, const Admission& admission, const std::string& token,
                             const std::vector<std::string>& taken) {
   if (hello.session_token != token) return "the session token is not the one of this run";
-  if (hello.protocol_major != protocol_major || hello.protocol_minor < protocol_minor)
+  if (hello.protocol_major != protocol_major || hello.protocol_minor < oldest_protocol_minor)
     return "it speaks protocol version " + version(hello.protocol_major, hello.protocol_minor) + ", the coupler " +
            version(protocol_major, protocol_minor);
-  // A later minor version has a longer schema; of the same version there is one schema only.
+  // Another minor version has a longer or shorter schema; of the same version there is one schema only.
   if (hello.protocol_minor == protocol_minor && hello.schema_hash != schema_hash())
     return "its schema has the hash " + hexadecimal(hello.schema_hash) + ", the coupler's " +
            hexadecimal(schema_hash());

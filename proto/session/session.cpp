@@ -22,6 +22,12 @@ void check_shape(const SeatRegistration& seat) {
                 "see 'Registration' in proto/README.md");
 }
 
+bool has_own_points(const Interface& registered) {
+  for (const auto& seat : registered.seats)
+    if (seat.own_points) return true;
+  return false;
+}
+
 }  // namespace
 
 Session::Session(Participant& participant, Progress& progress) : participant_(participant), progress_(progress) {
@@ -76,10 +82,8 @@ std::optional<Body> Session::answer(const Welcome&) {
 std::optional<Body> Session::answer(const Configure& request) {
   require(state_ == State::registered, "Configure", "it comes once, after the registration");
   require(request.window_s > 0.0 && request.windows > 0, "Configure", "window length and number must be positive");
-  check_length("stiffness", request.stiffness.size(), true);
-  check_length("damping", request.damping.size(), true);
-  check_length("preload", request.preload.size(), true);
-  check_length("tension_cutoff", request.tension_cutoff.size(), true);
+  check_pad(request);
+  mode_ = request.mode;
   n_windows_ = request.windows;
   auto configured = participant_.configure(request);
   state_ = State::configured;
@@ -185,25 +189,45 @@ std::optional<Body> Session::answer(const Finish&) {
   return bye;
 }
 
-void Session::check_length(const std::string& name, std::size_t found, bool may_be_empty) const {
-  if (found == n_values_ || (may_be_empty && found == 0)) return;
+void Session::check_pad(const Configure& request) {
+  const bool own = has_own_points(interface_);
+  n_pad_values_ = own ? request.stiffness.size() : n_values_;
+  const auto check = [this](const char* name, std::size_t found) {
+    if (found > 0) check_length(name, found, n_pad_values_);
+  };
+  check("stiffness", request.stiffness.size());
+  check("damping", request.damping.size());
+  check("preload", request.preload.size());
+  check("tension_cutoff", request.tension_cutoff.size());
+  require(own != request.pad_map.empty(), "Configure",
+          own ? "a participant with points of its own gets a pad_map" : "the registered cells need no pad_map");
+}
+
+std::size_t Session::length_of(const std::string& name) const {
+  return belongs_to_pad(name, mode_) ? n_pad_values_ : n_values_;
+}
+
+void Session::check_length(const std::string& name, std::size_t found, std::size_t wanted) const {
+  if (found == wanted) return;
   throw Error(ExitCode::protocol, "'" + name + "' has " + std::to_string(found) +
-                                      " values, the registered cells have " + std::to_string(n_values_));
+                                      " values, the registered cells have " + std::to_string(wanted));
 }
 
 void Session::check_incoming(const FieldSet& data) const {
-  for (const auto& field : data.all()) check_length(field.name, field.values.size(), false);
+  for (const auto& field : data.all()) check_length(field.name, field.values.size(), length_of(field.name));
 }
 
 void Session::check_outgoing(const FieldSet& data, std::int64_t window) const {
   for (const auto& field : data.all()) {
     bool registered = false;
     for (const auto& spec : interface_.fields) registered = registered || (spec.outgoing && spec.name == field.name);
-    if (!registered || field.values.size() != n_values_)
+    if (!registered || field.values.size() != length_of(field.name))
       throw Error(
           ExitCode::internal,
           "the participant gave the field '" + field.name + "' with " + std::to_string(field.values.size()) + " values",
-          "", registered ? "the registered cells have " + std::to_string(n_values_) : "describe() does not list it");
+          "",
+          registered ? "the registered cells have " + std::to_string(length_of(field.name))
+                     : "describe() does not list it");
     for (std::size_t i = 0; i < field.values.size(); ++i)
       if (!std::isfinite(field.values[i]))
         throw Error(ExitCode::numerics, "the solution is not finite: " + field.name,

@@ -43,7 +43,10 @@ class Session {
 
   [[noreturn]] void out_of_order(const char* name, const std::string& why) const;
   void require(bool condition, const char* name, const std::string& why) const;
-  void check_length(const std::string& name, std::size_t found, bool may_be_empty) const;
+  void check_pad(const Configure& request);
+  /// Of a field: over the registered points, or over the pad's cells.
+  std::size_t length_of(const std::string& name) const;
+  void check_length(const std::string& name, std::size_t found, std::size_t wanted) const;
   void check_incoming(const FieldSet& data) const;
   void check_outgoing(const FieldSet& data, std::int64_t window) const;
   std::string place_of_value(std::size_t index) const;
@@ -52,7 +55,8 @@ class Session {
   Progress& progress_;
   Capabilities capabilities_;
   Interface interface_;
-  std::size_t n_values_ = 0;  ///< length of every field
+  std::size_t n_values_ = 0, n_pad_values_ = 0;  ///< of the registered points and of the pad's cells
+  LoadMode mode_ = LoadMode::robin;
   std::uint64_t n_windows_ = 0;
 
   State state_ = State::greeting;

@@ -12,7 +12,8 @@
 namespace proto {
 
 inline constexpr std::uint32_t protocol_major = 1;
-inline constexpr std::uint32_t protocol_minor = 2;
+inline constexpr std::uint32_t protocol_minor = 3;
+inline constexpr std::uint32_t oldest_protocol_minor = 2;  ///< of a participant that a coupler still takes
 
 /// XXH3-64 of the schema's text, fixed at build time.
 std::uint64_t schema_hash();

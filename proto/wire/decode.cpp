@@ -88,7 +88,8 @@ SeatRegistration read(const fbs::SeatRegistration& m) {
           of_seat(m.stiffness(), "stiffness"),
           of_seat(m.damping(), "damping"),
           of_seat(m.preload(), "preload"),
-          flags(m.tension_cutoff())};
+          flags(m.tension_cutoff()),
+          m.own_points()};
 }
 
 Hello read(const fbs::Hello& m) {
@@ -119,7 +120,8 @@ Configure read(const fbs::Configure& m) {
           numbers(m.stiffness(), "stiffness"),
           numbers(m.damping(), "damping"),
           numbers(m.preload(), "preload"),
-          flags(m.tension_cutoff())};
+          flags(m.tension_cutoff()),
+          numbers(m.pad_map(), "pad_map")};
 }
 Configured read(const fbs::Configured& m) {
   if (m.largest_step_s()) finite(*m.largest_step_s(), "largest_step_s");

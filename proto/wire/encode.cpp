@@ -30,7 +30,8 @@ class BodyWriter {
   }
   auto operator()(const Configure& m) {
     return fbs::CreateConfigure(b_, m.window_s, m.windows, static_cast<fbs::LoadMode>(m.mode), text(m.output_directory),
-                                numbers(m.stiffness), numbers(m.damping), numbers(m.preload), flags(m.tension_cutoff));
+                                numbers(m.stiffness), numbers(m.damping), numbers(m.preload), flags(m.tension_cutoff),
+                                m.pad_map.empty() ? 0 : numbers(m.pad_map));
   }
   auto operator()(const Configured& m) {
     return fbs::CreateConfigured(b_, m.largest_step_s, facts(m.facts), m.largest_initialise_step_s);
@@ -77,7 +78,7 @@ class BodyWriter {
     return fbs::CreateSeatRegistration(b_, text(seat.name), numbers(seat.points), numbers(seat.weights),
                                        numbers(seat.rigid_response), numbers(seat.force_resultants),
                                        numbers(seat.stiffness), numbers(seat.damping), numbers(seat.preload),
-                                       flags(seat.tension_cutoff));
+                                       flags(seat.tension_cutoff), seat.own_points);
   }
 
   flatbuffers::FlatBufferBuilder& b_;

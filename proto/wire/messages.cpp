@@ -29,6 +29,14 @@ const std::vector<double>& FieldSet::get(const std::string& name) const {
               "see the field table of proto/README.md");
 }
 
+bool belongs_to_pad(const std::string& name, LoadMode mode) {
+  if (mode != LoadMode::robin) return false;
+  for (const char* of_pad : {field::sleeper_mean_displacement, field::sleeper_mean_velocity, field::force_carry,
+                           field::force_robin, field::force_used})
+    if (name == of_pad) return true;
+  return false;
+}
+
 const char* name_of(const Body& body) {
   static constexpr std::array<const char*, std::variant_size_v<Body>> names = {
       "Hello",    "Welcome", "Reject", "Interface", "Configure", "Configured", "Start", "Advance", "Result", "Commit",

@@ -42,6 +42,10 @@ struct Field {
   std::vector<double> values;
 };
 
+/// Whether a field of the rail's side runs over the pad's cells even if that side has points of its own: what its pad
+/// needs and gives in the mode robin.
+bool belongs_to_pad(const std::string& name, LoadMode mode);
+
 /// Fields of one message, by name.
 class FieldSet {
  public:
@@ -86,6 +90,7 @@ struct SeatRegistration {
   std::vector<double> force_resultants;  ///< [3 n][6] force [N] and moment about the seat origin [N m], global frame, of a unit value
   std::vector<double> stiffness, damping, preload;  ///< [3 n], only from the side that owns the pad
   std::vector<bool> tension_cutoff;                 ///< [3 n]
+  bool own_points = false;                          ///< not the case's cells: the coupler maps
 };
 struct Interface { std::vector<FieldSpec> fields; std::vector<SeatRegistration> seats; };
 
@@ -96,6 +101,9 @@ struct Configure {
   std::string output_directory;
   std::vector<double> stiffness, damping, preload;  ///< pad per interface value, as the pad's owner registered it
   std::vector<bool> tension_cutoff;
+  /// Per seat [3 cells][3 points] in seat axes: motion of the pad's cells from that of the receiver's own points; empty
+  /// for one that registered the cells.
+  std::vector<double> pad_map = {};
 };
 struct Configured {
   std::optional<double> largest_step_s;  ///< of an explicit solver [s]

@@ -43,8 +43,8 @@ void print_facts(const std::vector<proto::Fact>& facts) {
 void print_ledger(const EnergyBalance& energy, double largest_residual) {
   fmt::print(
       "energy                    {:.4g} J of work; dissipated: elements {:.3g}, contact dashpots {:.3g}, "
-      "friction {:.3g} J\n",
-      energy.work, energy.viscous, energy.contact_dashpots, energy.friction);
+      "friction {:.3g} J; radiated {:.3g} J\n",
+      energy.work, energy.viscous, energy.contact_dashpots, energy.friction, energy.radiated);
   fmt::print("energy residual           {:.2e} of {:.3g} J that were moved, {:.2e} at most\n", energy.relative(),
              energy.scale, largest_residual);
 }
@@ -53,7 +53,7 @@ void print_ledger(const EnergyBalance& energy, double largest_residual) {
 
 void check_command(const proto::CaseFile& file) {
   check_case(file);
-  check_bed(file);
+  for (const std::string& warning : check_bed(file, read_qdem_case(file).physics)) spdlog::warn("{}", warning);
 }
 
 void print_figures(const proto::CaseFile& file) {

@@ -1,5 +1,6 @@
 #include "qdem_solver/bed/bed.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <xxhash.h>
 
@@ -151,6 +152,16 @@ std::filesystem::path cache_of(const std::string& wanted) {
   return std::filesystem::path(".cache") / "beds";
 }
 
+/// Rigid ground adds nothing.
+void add_subgrade(InputHash& hash, const std::optional<SubgradeLayer>& layer) {
+  if (!layer) return;
+  add_material(hash, layer->material);
+  for (const double value :
+       {layer->thickness, layer->width, layer->element, layer->normal_stiffness, layer->tangential_stiffness}) {
+    hash.add(value);
+  }
+}
+
 std::string hash_of(const bed::Settings& settings, const BedPhysics& physics) {
   InputHash hash;
   add_settings(hash, settings);
@@ -158,17 +169,40 @@ std::string hash_of(const bed::Settings& settings, const BedPhysics& physics) {
   add_stone_files(hash, settings.shapes.files);
   add_mixture(hash, settings.mixture, physics);
   add_bearings(hash, physics);
+  add_subgrade(hash, physics.subgrade);
   return hash.hex();
+}
+
+bed::Settings checked_settings(const proto::CaseFile& file, const BedPhysics& physics) {
+  bed::Settings settings = bed::read_settings(file);
+  if (physics.subgrade && physics.subgrade->width < settings.wall()) {
+    file.section("qdem")
+        .section("subgrade")
+        .fail("width_m",
+              fmt::format("the layer ends {:.4g} m from the track's centre, under a bed whose slope ends at {:.4g} m",
+                          physics.subgrade->width, settings.wall()),
+              "make it wider, best by its thickness");
+  }
+  return settings;
+}
+
+Bed build_bed(const proto::CaseFile& file, const bed::Settings& settings, const BedPhysics& physics,
+              const std::string& cache_folder) {
+  bed::Builder builder(settings, physics);
+  if (!physics.subgrade) return builder.build();
+  BedPhysics on_rigid_ground = physics;
+  on_rigid_ground.subgrade.reset();
+  return builder.lay_on_subgrade(make_bed(file, on_rigid_ground, cache_folder));
 }
 
 }  // namespace
 
 std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics) {
-  return hash_of(bed::read_settings(file), physics);
+  return hash_of(checked_settings(file, physics), physics);
 }
 
 Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::string& cache_folder) {
-  const bed::Settings settings = bed::read_settings(file);
+  const bed::Settings settings = checked_settings(file, physics);
   const std::string hash = hash_of(settings, physics);
   const auto folder = cache_of(cache_folder);
   const auto path = folder / (hash + ".h5");
@@ -184,7 +218,7 @@ Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::
     throw proto::Error(proto::ExitCode::cannot_create, "the bed cache cannot be made: " + error.message(),
                        folder.string(), "set QDEM_BED_CACHE to a folder you can write");
   }
-  Bed bed = bed::Builder(settings, physics).build();
+  Bed bed = build_bed(file, settings, physics, cache_folder);
   bed.report.hash = hash;
   write_bed_file(path.string(), bed);
   spdlog::info("bed: stored as {}", path.string());
@@ -201,8 +235,11 @@ SleeperFigures sleeper_figures(const proto::CaseFile& file, const BedPhysics& ph
   return {2 * model.body_mass(0), largest_stable_step(element_rates(model).front())};
 }
 
-void check_bed(const proto::CaseFile& file) {
-  bed::read_settings(file);
+std::vector<std::string> check_bed(const proto::CaseFile& file, const BedPhysics& physics) {
+  checked_settings(file, physics);
+  const std::string coarse = physics.subgrade ? too_coarse(*physics.subgrade) : "";
+  if (coarse.empty()) return {};
+  return {coarse};
 }
 
 }  // namespace qdem

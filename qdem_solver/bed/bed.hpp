@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "proto/case/case_file.hpp"
+#include "qdem_solver/bed/subgrade.hpp"
 #include "qdem_solver/model/model.hpp"
 #include "qdem_solver/state/state.hpp"
 
@@ -18,13 +20,15 @@ struct BedPhysics {
   ContactLaw contact;            ///< between bodies, at real stiffness; also the planes' k_n, k_t, damping, rounding
   double ground_friction = 0.5;  ///< of the plane under the ballast [-]
   Bearing lining;                ///< under-sleeper pad
-  Bearing ground;                ///< behind the plane under the ballast: mat, subgrade
-  Eigen::Vector3d gravity{0, 0, -9.81};  ///< [m/s2]
+  Bearing ground;                ///< behind the plane under the ballast: mat, half-space
+  std::optional<SubgradeLayer> subgrade;  ///< of elements, in that plane's place
+  Eigen::Vector3d gravity{0, 0, -9.81};   ///< [m/s2]
 
-  /// All materials as Model::materials holds them: stone, sleeper, others.
+  /// All materials as Model::materials holds them: stone, sleeper, others, that of the subgrade's elements.
   std::vector<Material> materials() const {
     std::vector<Material> all{stone, sleeper};
     all.insert(all.end(), others.begin(), others.end());
+    if (subgrade) all.push_back(subgrade->material);
     return all;
   }
 };
@@ -56,7 +60,8 @@ struct BedReport {
 ///
 /// Body 0 is the sleeper (`model.pad_body` = 0), bodies 1.. are stones. `model.materials` are BedPhysics::materials().
 /// Planes: "ground", "symmetry" (y = 0, stones only), "bay_begin", "bay_end". Fixities hold the sleeper's cut at u_y =
-/// 0. No pads: the caller adds them. Local damping and drag are zero.
+/// 0. On a subgrade of elements there is a last body more, see lay_subgrade(). No pads: the caller adds them. Local
+/// damping and drag are zero.
 struct Bed {
   Model model;
   State state;
@@ -64,7 +69,8 @@ struct Bed {
 };
 
 /// Builds the bed of `file` ([bed], [track], [[rail_seat]]) or loads it from the cache when a bed with the same inputs
-/// is there. Same inputs give bitwise the same bed, built or loaded, with any number of threads.
+/// is there. Same inputs give bitwise the same bed, built or loaded, with any number of threads. A bed on a subgrade of
+/// elements is first made on rigid ground, in the cache too, then laid on it and brought to rest anew.
 ///
 /// The cache is `cache_folder`, by default $QDEM_BED_CACHE, else $XDG_CACHE_HOME/qdem_fem/beds, else .cache/beds under
 /// the working folder. Throws proto::Error: config for bad keys; bad_data when the bed misses a limit of the case
@@ -84,7 +90,8 @@ struct SleeperFigures {
 /// Throws as make_bed for bad keys.
 SleeperFigures sleeper_figures(const proto::CaseFile& file, const BedPhysics& physics);
 
-/// Reads and checks [bed] and the geometry it implies without building anything. Throws as make_bed for bad keys.
-void check_bed(const proto::CaseFile& file);
+/// Reads and checks [bed] and the geometry it implies without building anything. Returns what deserves a warning, one
+/// line each. Throws as make_bed for bad keys.
+std::vector<std::string> check_bed(const proto::CaseFile& file, const BedPhysics& physics);
 
 }  // namespace qdem

@@ -24,7 +24,7 @@ constexpr double layer_pressure = 4e3, crib_pressure = 1.5e3;  // [Pa], where ta
 }  // namespace
 
 Builder::Builder(const Settings& settings, const BedPhysics& physics)
-    : settings_(settings), physics_(physics), random_(settings.seed, 1) {}
+    : settings_(settings), physics_(physics), random_(settings.seed, 1), ground_(settings.ground_level()) {}
 
 Bed Builder::build() {
   const auto start = std::chrono::steady_clock::now();
@@ -39,6 +39,24 @@ Bed Builder::build() {
   come_to_rest();
   finish();
   report_.build_wall_s = proto::seconds_since(start);
+  check_limits();
+  return {std::move(model_), std::move(state_), std::move(report_)};
+}
+
+Bed Builder::lay_on_subgrade(Bed base) {
+  const auto start = std::chrono::steady_clock::now();
+  stage_ = "settling on the subgrade", falling_ = false;
+  model_ = std::move(base.model), state_ = std::move(base.state), report_ = std::move(base.report);
+  report_.from_cache = false;
+  ground_ = lay_subgrade(model_, state_, *physics_.subgrade);
+  hold_sleeper(held_along_track);
+  soften(at_level(settings_.ramp_levels));
+  model_.contact.friction = physics_.contact.friction, model_.drag_per_s = 0;
+  run_steps(settings_.preload_steps, {});
+  load_once();
+  come_to_rest();
+  finish();
+  report_.build_wall_s += proto::seconds_since(start);
   check_limits();
   return {std::move(model_), std::move(state_), std::move(report_)};
 }
@@ -117,12 +135,13 @@ void Builder::add_stones(const std::vector<Stone>& stones, const std::vector<Rec
 }
 
 void Builder::hold_sleeper(unsigned mask) {
-  model_.fixities.clear();
+  auto& held = model_.fixities;
+  held.erase(std::remove_if(held.begin(), held.end(), [](const Fixity& f) { return f.body == sleeper; }), held.end());
   const Template& shape = model_.shape(sleeper);
   for (int i = 0; i < shape.n_nodes(); ++i) {
     const bool on_cut = shape.nodes[i][1] < 1e-9;
     const unsigned all = mask | (on_cut ? 2u : 0u);
-    if (all != 0) model_.fixities.push_back({sleeper, i, all});
+    if (all != 0) held.push_back({sleeper, i, all});
   }
 }
 
@@ -140,7 +159,9 @@ double Builder::top_of_stones() const {
 
 double Builder::mass_of_stones() const {
   double mass = 0.0;
-  for (int b = 1; b < static_cast<int>(model_.bodies.size()); ++b) mass += model_.body_mass(b);
+  for (int b = 1; b < static_cast<int>(model_.bodies.size()); ++b) {
+    if (model_.bodies[b].kind == BodyKind::stone) mass += model_.body_mass(b);
+  }
   return mass;
 }
 

@@ -11,6 +11,8 @@
 
 namespace qdem::bed {
 
+inline constexpr unsigned held_along_track = 1u;  ///< mask of a Fixity
+
 /// How long a part of the procedure takes at least and at most [s].
 struct Duration {
   double least, most;  ///< [s]
@@ -23,13 +25,18 @@ struct Rest {
   double kinetic = 0.0;     ///< [J]; 0: not asked
 };
 
-/// Builds one bed; README.md describes the stages. Use once: `Builder(settings, physics).build()`.
+/// Builds one bed; README.md describes the stages. Use once, for
+/// build() or lay_on_subgrade().
 class Builder {
  public:
   Builder(const Settings& settings, const BedPhysics& physics);
 
   /// The bed at rest. Throws proto::Error: bad_data when it misses a limit of the case, numerics from the engine.
   Bed build();
+
+  /// `base`, the bed of the same settings at rest on rigid ground, on the subgrade of the physics: settled, under one
+  /// preload too, and at rest. Throws as build().
+  Bed lay_on_subgrade(Bed base);
 
  private:
   /// How soft stones are in a stage, and how the motion is damped.
@@ -52,6 +59,7 @@ class Builder {
   void consolidate();
   /// The formwork goes, friction gets its true value, and the load comes once more.
   void release();
+  void load_once();  ///< the preload comes and goes
   void ramp_load(double from, double to);
   void come_to_rest();
   bool at_rest() const;  ///< within the limits of the case, as last reported
@@ -96,6 +104,7 @@ class Builder {
   const char* stage_ = "";       ///< for the log
   bool falling_ = true;          ///< stones may still fall on others
   double loaded_height_ = 0.0;   ///< of the seat under the last preload [m]
+  double ground_ = 0.0;          ///< where stones stand, before the last shift [m]
   double sleeper_bottom_ = 0.0;  ///< where the tamped layer ends, before the last shift [m]
   Model model_;
   State state_;

@@ -36,7 +36,6 @@ constexpr double hardening_drag = 1.0;    // of the rattling frequency of a mean
 constexpr double heaved_share = 0.95;     // of the sleeper's weight; drag would keep a heavy sleeper down
 constexpr double share_of_limits = 0.5;   // rest is better than the case asks for
 constexpr double telling_interval = 5;    // [s] of work
-constexpr unsigned held_along_track = 1u;
 
 using proto::seconds_since;
 
@@ -199,6 +198,10 @@ void Builder::release() {
   stage_ = "releasing";
   take_formwork_away();
   model_.contact.friction = physics_.contact.friction;
+  load_once();
+}
+
+void Builder::load_once() {
   if (settings_.preload_cycles == 0) return;
   ramp_load(0, settings_.preload);
   run_steps(settings_.preload_steps, {});

@@ -55,16 +55,20 @@ void Builder::finish() {
     }
   }
   for (Plane& plane : model_.planes) plane.point += back;
+  for (BoundaryParticle& particle : model_.boundary) particle.rest += back;
   state_.step = 0, state_.time = 0, state_.contact.rebuild_time = 0;
   drop_spare_lanes();
 
-  report_.stones = static_cast<std::int64_t>(model_.bodies.size()) - 1;
-  report_.elements = model_.n_elements();
+  report_.stones = 0;
+  std::int64_t in_stones = 0;
+  for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
+    if (model_.bodies[b].kind == BodyKind::stone) ++report_.stones, in_stones += model_.shape(b).n_tets();
+  }
+  report_.elements = in_stones + model_.shape(sleeper).n_tets();
   report_.seed = static_cast<std::int64_t>(s.seed);
   report_.d50 = s.gradation.size_at(0.5);
-  report_.elements_per_stone =
-      static_cast<double>(report_.elements - model_.shape(sleeper).n_tets()) / static_cast<double>(report_.stones);
-  const double half = s.gradation.size_at(0.5) / 2, r = physics_.contact.rounding, ground = s.ground_level() + back[2];
+  report_.elements_per_stone = static_cast<double>(in_stones) / static_cast<double>(report_.stones);
+  const double half = s.gradation.size_at(0.5) / 2, r = physics_.contact.rounding, ground = ground_ + back[2];
   const double pitch = std::max(s.gradation.size_at(0.5) / 25, 1e-3);
   const Vector3d low(-s.sleeper.width() / 2, half, ground + half),
       high(s.sleeper.width() / 2, s.half_length() - half, -s.sleeper.height() - half);

@@ -24,7 +24,7 @@ class FacetSearch {
     for (const int b : partners) {
       close_in(a, b);
       nodes_against_skin(a, b, found);
-      if (a < b) edges_against_edges(a, b, found);
+      if (a < b && !is_ground(a) && !is_ground(b)) edges_against_edges(a, b, found);
     }
   }
 
@@ -41,7 +41,10 @@ class FacetSearch {
     std::array<Eigen::Vector3d, 2> x;
   };
 
+  bool is_ground(int body) const { return model_.bodies[body].kind == BodyKind::ground; }
+
   void against_plane(int a, int p, Found& found) const {
+    if (is_ground(a)) return;
     const Plane& plane = model_.planes[p];
     const bool sleeper = model_.bodies[a].kind == BodyKind::sleeper;
     if (sleeper ? !plane.touches_sleeper : !plane.touches_stones) return;

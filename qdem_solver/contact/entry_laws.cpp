@@ -52,6 +52,7 @@ ContactLaw in_series(const ContactLaw& law, const Bearing& bearing) {
 }
 
 EntryLaws::EntryLaws(const Model& model) : model_(model) {
+  for (const Body& body : model.bodies) has_ground_ = has_ground_ || body.kind == BodyKind::ground;
   if (model.pad_body >= 0) {
     const Template& shape = model.shape(model.pad_body);
     double low = shape.nodes.front()[2];
@@ -68,6 +69,8 @@ EntryLaws::EntryLaws(const Model& model) : model_(model) {
 
 void EntryLaws::refresh() {
   lined_ = in_series(model_.contact, model_.lining);
+  of_ground_ = {model_.contact, lined_};
+  for (ContactLaw& law : of_ground_) law.friction = model_.ground_friction;
   of_plane_.clear();
   for (const Plane& plane : model_.planes) {
     of_plane_.push_back({in_series(model_.contact, plane.bearing), in_series(lined_, plane.bearing)});
@@ -89,10 +92,16 @@ bool EntryLaws::is_lined(const ContactState& contact, std::size_t entry) const {
   return std::any_of(first, last, [&](int triangle) { return triangles_[triangle] != 0; });
 }
 
+bool EntryLaws::touches_ground(const ContactKey& key) const {
+  const auto is_ground = [&](int body) { return model_.bodies[body].kind == BodyKind::ground; };
+  return has_ground_ && (is_ground(key.body_a) || is_ground(key.body_b));
+}
+
 const ContactLaw& EntryLaws::of(const ContactState& contact, std::size_t entry) const {
   const bool lined = is_lined(contact, entry);
   const ContactKey& key = contact.keys[entry];
   if (key.is_plane()) return of_plane_[~key.body_b][lined ? 1 : 0];
+  if (touches_ground(key)) return of_ground_[lined ? 1 : 0];
   return lined ? lined_ : model_.contact;
 }
 

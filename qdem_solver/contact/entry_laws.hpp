@@ -37,9 +37,13 @@ class EntryLaws {
   bool is_lined(const ContactState& contact, std::size_t entry) const;
 
  private:
+  bool touches_ground(const ContactKey& key) const;
+
   const Model& model_;
   std::vector<char> nodes_, triangles_, edges_;  ///< of the pad body: on its bottom
+  bool has_ground_ = false;
   ContactLaw lined_;
+  std::array<ContactLaw, 2> of_ground_;              ///< of bodies of kind ground for bare and for lined particles
   std::vector<std::array<ContactLaw, 2>> of_plane_;  ///< of every plane for bare and for lined particles
 };
 

@@ -14,8 +14,10 @@ struct EnergyBalance {
   double viscous = 0.0;           ///< dissipated in the elements [J]
   double contact_dashpots = 0.0;  ///< [J]
   double friction = 0.0;          ///< [J]
+  double radiated = 0.0;          ///< into the ground beyond artificial boundaries [J]
 
-  double dissipated() const { return viscous + contact_dashpots + friction; }
+  /// Radiated or turned into heat [J].
+  double dissipated() const { return viscous + contact_dashpots + friction + radiated; }
   /// Energy that came from nowhere: change of what is stored, plus what was dissipated, minus the work [J].
   double residual() const;
   /// What the residual is measured by [J]: the largest of |work| so far, of what was dissipated, of what one kind of

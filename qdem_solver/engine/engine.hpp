@@ -66,10 +66,10 @@ struct Energies {
 /// Integrates a State of a Model. Holds scratch only: everything that has a history lives in the State, so that copying
 /// the State is a snapshot, and a restored State continues with the same bytes.
 ///
-/// The Model must outlive the engine and keep its bodies, materials, contact law, pads, fixities and loads. `gravity`,
-/// `local_damping`, `inertia`, `drag_per_s`, `pad_body_load` and the planes' velocities are read at every step and may
-/// be changed between steps; a change of anything else needs a new engine. Results are bitwise the same for any number
-/// of threads.
+/// The Model must outlive the engine and keep its bodies, materials, contact law, pads, fixities, loads and boundary.
+/// `gravity`, `local_damping`, `inertia`, `drag_per_s`, `pad_body_load` and the planes' velocities are read at every
+/// step and may be changed between steps; a change of anything else needs a new engine. Results are bitwise the same
+/// for any number of threads.
 class Engine {
  public:
   /// Throws proto::Error (unavailable) for a device that is not there, (config) for what a device cannot do.

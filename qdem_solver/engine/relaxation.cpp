@@ -21,6 +21,16 @@ double lightest_particle(const Model& model, int body) {
   return least;
 }
 
+/// Mass that the dashpots of a body's contacts go by: its own; of the ground, which meets stones, the heaviest stone's.
+double dashpot_mass(const Model& model, int body) {
+  if (model.bodies[body].kind != BodyKind::ground) return model.body_mass(body);
+  double heaviest = 0.0;
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b) {
+    if (model.bodies[b].kind == BodyKind::stone) heaviest = std::max(heaviest, model.body_mass(b));
+  }
+  return heaviest;
+}
+
 /// `n` contacts of a body of this mass, each of which moves `moved_mass` alone: its stiffness, and the dashpot
 /// 2 zeta sqrt(m k), over the moved mass; doubled for the two sides.
 Rates contacts_of(const Model& model, int n, double mass, double moved_mass) {
@@ -55,6 +65,7 @@ Relaxation::Relaxation(Model& model, int n_contacts, double safety)
       safety_(safety),
       step_(relaxation_step(model, n_contacts, safety)),
       elements_(element_rates(model)),
+      boundary_(boundary_rates(model)),
       pads_(pad_rates(model)) {}
 
 void Relaxation::begin(Engine& engine, State& state) {
@@ -69,9 +80,10 @@ void Relaxation::fit(const Engine& engine, const State& state) {
   model_.inertia.resize(model_.bodies.size());
   for (int b = 0; b < static_cast<int>(model_.bodies.size()); ++b) {
     const double mass = model_.body_mass(b);
-    const Rates touched = contacts_of(model_, contacts_of_a_particle, mass, lightest_particle(model_, b));
-    Rates deformation = elements_[b] + larger(contacts[b].particle, touched);
-    Rates rigid = larger(contacts[b].rigid, rigid_contacts(model_, n_contacts_, mass));
+    const Rates touched =
+        contacts_of(model_, contacts_of_a_particle, dashpot_mass(model_, b), lightest_particle(model_, b));
+    Rates deformation = elements_[b] + boundary_[b] + larger(contacts[b].particle, touched);
+    Rates rigid = larger(contacts[b].rigid, rigid_contacts(model_, n_contacts_, mass)) + boundary_[b];
     if (b == model_.pad_body) deformation = deformation + pads_, rigid = rigid + pads_;
     model_.inertia[b].deformation = std::max(1.0, demand(deformation, dt) / budget);
     model_.inertia[b].rigid = std::max(1.0, demand(rigid, dt) / budget);

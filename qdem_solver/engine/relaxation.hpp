@@ -42,7 +42,7 @@ class Relaxation {
   Model& model_;
   int n_contacts_;
   double safety_, step_;
-  std::vector<Rates> elements_;
+  std::vector<Rates> elements_, boundary_;  ///< of every body
   Rates pads_;
 };
 

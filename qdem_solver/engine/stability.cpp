@@ -191,12 +191,23 @@ std::vector<Rates> load_rates(const Model& model) {
   return result;
 }
 
+std::vector<Rates> boundary_rates(const Model& model) {
+  std::vector<Rates> result(model.bodies.size());
+  for (const BoundaryParticle& p : model.boundary) {
+    const double mass = model.node_mass(p.body, p.node);
+    result[p.body] = larger(result[p.body], {p.stiffness.maxCoeff() / mass, p.damping.maxCoeff() / mass});
+  }
+  return result;
+}
+
 StepBound::StepBound(const Model& model)
     : elements_(element_rates(model)),
       loads_(load_rates(model)),
       weights_(std::numeric_limits<double>::infinity()),
       pads_(pad_rates(model)),
       pad_body_(model.pad_body) {
+  const auto beyond = boundary_rates(model);
+  for (std::size_t b = 0; b < beyond.size(); ++b) loads_[b] = loads_[b] + beyond[b];
   for (const PatchLoad& load : model.loads) {
     if (load.kind != LoadKind::drop_weight) continue;
     weights_ = std::min(weights_, largest_stable_step({2 * load.stiffness / load.mass, 2 * load.damping / load.mass}));

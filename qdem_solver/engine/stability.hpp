@@ -34,7 +34,7 @@ class StepBound {
   double least_step(const std::vector<ContactRates>& contacts, bool viscous) const;
 
   std::vector<Rates> elements_;  ///< of every body
-  std::vector<Rates> loads_;     ///< of every body
+  std::vector<Rates> loads_;     ///< of every body: its loads, and the boundary it lies on
   double weights_;               ///< the least step of the drop weights by themselves [s]
   Rates pads_;
   int pad_body_;
@@ -53,6 +53,9 @@ Rates quadruple_rates(const Template& shape, const Material& material);
 /// Bound of the springs and buffers of Model::loads, for every body. Those of a drop weight count twice, since the
 /// weight moves, too.
 std::vector<Rates> load_rates(const Model& model);
+
+/// Bound of the springs and dashpots of Model::boundary, for every body: each acts on one particle, along the axes.
+std::vector<Rates> boundary_rates(const Model& model);
 
 /// Bound of the pads at full engagement, from the operator's weights and the sleeper's particle masses.
 Rates pad_rates(const Model& model);

@@ -28,6 +28,10 @@ std::string unknown_to_engine(EngineKind kind, const Model& model) {
   if (!model.lining.is_rigid()) return "a pad under the sleeper";
   const auto gives_way = [](const Plane& plane) { return !plane.bearing.is_rigid(); };
   if (std::any_of(model.planes.begin(), model.planes.end(), gives_way)) return "ground that gives way";
+  const auto is_ground = [](const Body& body) { return body.kind == BodyKind::ground; };
+  if (!model.boundary.empty() || std::any_of(model.bodies.begin(), model.bodies.end(), is_ground)) {
+    return "a subgrade of elements";
+  }
   return model.loads.empty() ? "" : "loads on patches";
 }
 

@@ -51,6 +51,10 @@ double Model::body_mass(int body) const {
   return material(body).density * scale * scale * scale * shape(body).volume();
 }
 
+Eigen::Vector3d Model::gravity_on(int body) const {
+  return bodies[body].kind == BodyKind::ground ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : gravity;
+}
+
 std::int64_t Model::n_elements() const {
   std::int64_t sum = 0;
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body) sum += shape(body).n_tets();

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "proto/pad/pad_law.hpp"
+#include "qdem_solver/model/absorbing_boundary.hpp"
 #include "qdem_solver/model/patch_load.hpp"
 
 namespace qdem {
@@ -89,7 +90,13 @@ struct TetLabels {
 Template make_template(std::string name, std::vector<Eigen::Vector3d> nodes, std::vector<std::array<int, 4>> tets,
                        double sharp_angle_deg = default_sharp_angle_deg, const TetLabels& labels = {});
 
-enum class BodyKind { stone, sleeper, other };
+enum class BodyKind {
+  stone,
+  sleeper,
+  other,
+  ground,  ///< a layer of the ground: has settled under its own weight before, so it has none; planes do not touch it,
+           ///< nor do its edges touch anything, since the ground goes on beyond them
+};
 
 struct Body {
   BodyKind kind = BodyKind::stone;
@@ -185,9 +192,11 @@ struct Model {
   std::vector<Plane> planes;
   ContactLaw contact;
   Eigen::Vector3d gravity{0, 0, -9.81};
-  std::vector<PadCell> pads;  ///< cells in order of seat, cell
-  int pad_body = -1;          ///< the sleeper
-  Bearing lining;             ///< on the bottom of the pad body: the lowest plane of its template
+  std::vector<PadCell> pads;               ///< cells in order of seat, cell
+  int pad_body = -1;                       ///< the sleeper
+  Bearing lining;                          ///< on the bottom of the pad body: the lowest plane of its template
+  double ground_friction = 0.0;            ///< of bodies of kind ground [-]
+  std::vector<BoundaryParticle> boundary;  ///< where the meshed ground ends
   std::vector<Fixity> fixities;
   std::vector<PatchLoad> loads;
   double local_damping = 0.0;              ///< Cundall's non-viscous damping, only while relaxing [-]
@@ -207,6 +216,7 @@ struct Model {
   const Material& material(int body) const { return materials[bodies[body].material_id]; }
   double node_mass(int body, int node) const;  ///< [kg]
   double body_mass(int body) const;            ///< [kg]
+  Eigen::Vector3d gravity_on(int body) const;  ///< [m/s2]
   std::int64_t n_elements() const;             ///< of all bodies
 };
 

@@ -114,6 +114,27 @@ void take_planes(const Hdf5Store& file, Model& model) {
   }
 }
 
+void put_boundary(Hdf5Store& file, const Model& model) {
+  if (model.boundary.empty()) return;
+  Integers particles;
+  Reals values;
+  for (const BoundaryParticle& p : model.boundary) {
+    particles.insert(particles.end(), {p.body, p.node});
+    append(values, p.rest), append(values, p.stiffness), append(values, p.damping);
+  }
+  file.put("boundary/body_node", particles);
+  file.put("boundary/rest_stiffness_damping", values, "m, N/m, N s/m");
+}
+
+void take_boundary(const Hdf5Store& file, Model& model) {
+  const Integers particles = file.integers("boundary/body_node");
+  const Reals values = file.reals("boundary/rest_stiffness_damping");
+  for (std::size_t p = 0; 2 * p + 1 < particles.size(); ++p) {
+    model.boundary.push_back({int(particles[2 * p]), int(particles[2 * p + 1]), triple(values, 9 * p),
+                              triple(values, 9 * p + 3), triple(values, 9 * p + 6)});
+  }
+}
+
 /// What exchange() names, into a bed file or out of it.
 class StoreArchive : public proto::StateArchive {
  public:
@@ -215,6 +236,10 @@ Bed take_bed(const Hdf5Store& file, const BedPhysics& physics) {
   for (Plane& plane : bed.model.planes) {
     if (plane.name == "ground") plane.bearing = physics.ground;
   }
+  if (physics.subgrade) {
+    take_boundary(file, bed.model);
+    bed.model.ground_friction = physics.ground_friction;
+  }
   make_batches(bed.model);
   take_state(file, bed.model, bed.state);
   bed.report = take_report(file);
@@ -231,6 +256,7 @@ void write_bed_file(const std::string& path, const Bed& bed) {
     put_templates(file, bed.model);
     put_bodies(file, bed.model);
     put_planes(file, bed.model);
+    put_boundary(file, bed.model);
     put_state(file, bed.state);
     put_report(file, bed.report);
     file.close();

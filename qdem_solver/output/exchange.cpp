@@ -17,6 +17,7 @@ void exchange(proto::StateArchive& archive, const std::string& prefix, StoredEne
   archive(prefix + "strain", energy.strain);
   archive(prefix + "contact", energy.contact);
   archive(prefix + "gravity", energy.gravity);
+  archive(prefix + "boundary", energy.boundary);
 }
 
 void exchange(proto::StateArchive& archive, const std::string& prefix, EnergyLedger& ledger) {
@@ -30,6 +31,8 @@ void exchange(proto::StateArchive& archive, const std::string& prefix, EnergyLed
   archive(prefix + "viscous", ledger.viscous);
   archive(prefix + "viscous_time", ledger.viscous_time);
   archive(prefix + "viscous_power", ledger.viscous_power);
+  archive(prefix + "radiated", ledger.radiated);
+  archive(prefix + "radiated_power", ledger.radiated_power);
   archive(prefix + "dashpot_power", ledger.contact_power.dashpot);
   archive(prefix + "friction_power", ledger.contact_power.friction);
 }

@@ -1,6 +1,7 @@
 #include "qdem_solver/output/fields_file.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -47,6 +48,10 @@ std::vector<float> per_body(const Model& model, ValueOf value_of) {
   return result;
 }
 
+bool has_kind(const Model& model, BodyKind kind) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), [&](const Body& body) { return body.kind == kind; });
+}
+
 proto::FieldSeriesOptions options_of(const Model& model, const std::vector<double>& points,
                                      const proto::Attributes& attributes, bool has_ledger) {
   using proto::Location;
@@ -63,6 +68,11 @@ proto::FieldSeriesOptions options_of(const Model& model, const std::vector<doubl
       {{"sleeper", "1", "1 in the sleeper, 0 in stones", Location::cell, 1},
        per_body(model, [&](int body) { return model.bodies[body].kind == BodyKind::sleeper; })},
   };
+  if (has_kind(model, BodyKind::ground)) {
+    options.static_fields.push_back(
+        {{"ground", "1", "1 in the layer of the ground", Location::cell, 1},
+         per_body(model, [&](int body) { return model.bodies[body].kind == BodyKind::ground; })});
+  }
   options.histories = {{"time", "s", "simulated time", {}},
                        {"kinetic_energy", "J", "of all particles", {}},
                        {"strain_energy", "J", "of all elements", {}},
@@ -76,6 +86,12 @@ proto::FieldSeriesOptions options_of(const Model& model, const std::vector<doubl
                               {"friction_dissipation", "J", "of the contacts' sliders, since the start", {}},
                               {"energy_residual", "J", "change of the energies plus dissipation minus work", {}},
                               {"energy_residual_relative", "1", "the residual over the energy that was moved", {}}});
+  }
+  if (!model.boundary.empty()) {
+    options.histories.push_back({"boundary_energy", "J", "of the springs where the meshed ground ends", {}});
+    if (has_ledger) {
+      options.histories.push_back({"radiated", "J", "into the dashpots there, since the start", {}});
+    }
   }
   options.histories.push_back({"touching", "1", "contacts that carry a force", {}});
   options.attributes = attributes;
@@ -119,6 +135,10 @@ void FieldsFile::put_energies(const EnergyBalance& balance) {
   file_.put_history("strain_energy", balance.stored.strain);
   file_.put_history("contact_energy", balance.stored.contact);
   file_.put_history("gravity_energy", balance.stored.gravity);
+  if (!model_.boundary.empty()) {
+    file_.put_history("boundary_energy", balance.stored.boundary);
+    if (has_ledger_) file_.put_history("radiated", balance.radiated);
+  }
   if (!has_ledger_) return;
   file_.put_history("work_of_loads", balance.work);
   file_.put_history("viscous_dissipation", balance.viscous);

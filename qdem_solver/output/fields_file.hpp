@@ -15,9 +15,10 @@ namespace qdem {
 
 /// All bodies as one tetrahedral grid. Points are the positions of the state given to the constructor; `displacement`
 /// is measured from them. Point fields: displacement [m], velocity [m/s]. Cell fields: von_mises_stress, mean_stress
-/// (positive in tension; of bonds, element_stress()) [Pa]. Static: body (number), sleeper (1 or 0). Histories with
-/// every step: time [s], kinetic_energy, strain_energy, contact_energy, gravity_energy [J], where there is one the
-/// energy ledger (EnergyBalance), touching (live contacts).
+/// (positive in tension; of bonds, element_stress()) [Pa]. Static: body (number), sleeper (1 or 0), where the model has
+/// any ground (1 or 0). Histories with every step: time [s], kinetic_energy, strain_energy, contact_energy,
+/// gravity_energy [J], where there is one the energy ledger (EnergyBalance), where the model has a boundary
+/// boundary_energy and radiated, touching (live contacts).
 class FieldsFile {
  public:
   /// Creates `path`. `model` must outlive the object. Throws proto::Error (cannot_create).

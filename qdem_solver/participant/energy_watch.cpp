@@ -43,6 +43,7 @@ std::vector<proto::Fact> EnergyWatch::facts() const {
           {"qdem.energy.viscous_j", last_.viscous, {}},
           {"qdem.energy.contact_dashpots_j", last_.contact_dashpots, {}},
           {"qdem.energy.friction_j", last_.friction, {}},
+          {"qdem.energy.radiated_j", last_.radiated, {}},
           {"qdem.energy.residual_j", last_.residual(), {}},
           {"qdem.energy.residual_relative", last_.relative(), {}},
           {"qdem.energy.largest_residual_relative", largest_, {}}};

@@ -191,6 +191,7 @@ QdemCase read_qdem_case(const proto::CaseFile& file) {
   check_use(file, result.physics);
   const Section contact = section.section("contact");
   read_contact(contact, result.physics);
+  check_subgrade(section, result.physics);
   result.initial_overlap_limit = contact.number_or("initial_overlap_limit", 0.01, Range::positive());
   result.sensors = read_sensors(section);
   result.contact_output = section.boolean_or("contact_output", false);

@@ -32,6 +32,11 @@ Model without_bodies(const QdemCase& settings) {
   Plane ground;
   ground.bearing = settings.physics.ground;
   model.planes.push_back(ground);
+  if (settings.physics.subgrade) {
+    Body layer;
+    layer.kind = BodyKind::ground;
+    model.bodies.push_back(layer);
+  }
   for (const LoadSettings& load : settings.run.loads) {
     if (acts_on_patch(load)) model.loads.push_back(load.load);
   }
@@ -136,8 +141,12 @@ std::vector<proto::Fact> TrackBed::facts() const {
 void TrackBed::add_layers(std::vector<proto::Fact>& facts) const {
   const Model& model = bed_.model;
   const BedPhysics& physics = settings_.physics;
-  if (physics.lining.is_rigid() && physics.ground.is_rigid()) return;
   const auto add = [&](const char* key, double value) { facts.push_back({key, value, {}}); };
+  if (physics.subgrade) {
+    add("qdem.subgrade_elements", static_cast<double>(model.templates.back().n_tets()));
+    add("qdem.subgrade_frequency_hz", physics.subgrade->resolved_frequency());
+  }
+  if (physics.lining.is_rigid() && physics.ground.is_rigid()) return;
   const ContactReport contacts = engine_->contacts().report(bed_.state);
   if (!physics.lining.is_rigid()) {
     add("qdem.pad_contacts", static_cast<double>(contacts.on_lining));

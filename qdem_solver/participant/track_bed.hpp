@@ -71,7 +71,8 @@ class TrackBed {
 
  private:
   void check_step(const proto::CaseFile& file) const;
-  /// How much of pad and ground is pressed, and what they cost: the step's bound over that on rigid ones.
+  /// The subgrade's elements; how much of pad and ground is pressed, and what these cost: the step's bound over that on
+  /// rigid ones.
   void add_layers(std::vector<proto::Fact>& facts) const;
   double touching_gap() const;  ///< for bodies that hardly move [m]
 

@@ -7,9 +7,10 @@
 
 namespace qdem {
 
-/// Energies that a state holds [J]. `gravity` counts from the origin.
+/// Energies that a state holds [J]. `gravity` counts from the origin, `boundary` is that of the springs of artificial
+/// boundaries.
 struct StoredEnergy {
-  double kinetic = 0.0, strain = 0.0, contact = 0.0, gravity = 0.0;
+  double kinetic = 0.0, strain = 0.0, contact = 0.0, gravity = 0.0, boundary = 0.0;
 };
 
 /// What the contacts dissipate at one time level [W].
@@ -34,6 +35,8 @@ struct EnergyLedger {
   double viscous = 0.0;           ///< dissipated in the elements until viscous_time [J]
   double viscous_time = 0.0;      ///< State::time of the last sample [s]
   double viscous_power = 0.0;     ///< at the last sample [W]
+  double radiated = 0.0;          ///< into the dashpots of artificial boundaries [J]
+  double radiated_power = 0.0;    ///< at the state's time level [W]
   ContactPower contact_power;     ///< at the state's time level; kept while the ledger is closed, too
 };
 

@@ -196,7 +196,7 @@ TEST(CouplerFault, AnotherProtocolVersionIsTurnedAway) {
   EXPECT_EQ(run.run().value_or(-1), code(proto::ExitCode::protocol));
   EXPECT_TRUE(contains(run.message(),
                        "coupler: fem: the coupler rejected this participant: it speaks protocol version "
-                       "2.2, the coupler 1.2"))
+                       "2.3, the coupler 1.3"))
       << run.message();
   EXPECT_TRUE(all_gone(run, 0.1));
 }

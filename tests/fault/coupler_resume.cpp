@@ -10,6 +10,7 @@
 #include "proto/result/reader.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/solver_case.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace {
 
@@ -127,7 +128,7 @@ TEST_P(Stop, LeavesACheckpoint) {
   EXPECT_EQ(ending_of(run), expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(By, Stop, ::testing::Values(SIGINT, SIGTERM));
+INSTANTIATE_TEST_SUITE_P(By, Stop, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
 
 TEST(Resume, AfterTheLimitOfWallTime) {
   const auto text = oscillator_case("interval_s = 0.0", 5 * n_windows);
@@ -238,6 +239,75 @@ TEST(Resume, AFolderWithoutARunIsRefused) {
   EXPECT_EQ(run.run({"run", "--resume", folder.path()}).value_or(-1), code(proto::ExitCode::missing_input));
   EXPECT_EQ(run.run({"run", "--resume", folder.file("none")}).value_or(-1), code(proto::ExitCode::missing_input));
   EXPECT_TRUE(contains(run.message(), "there is no folder of a run")) << run.message();
+}
+
+/// A script that is started as `PROGRAM participant ...` and becomes `command`.
+std::string stand_in(const tests::TemporaryFolder& folder, const std::string& command) {
+  const auto path = folder.file("stand_in");
+  std::ofstream(path) << "#!/bin/sh\nshift\nexec " << command << " \"$@\"\n";
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
+}
+
+const std::string implicit_side = " participant --side implicit";
+const std::string other_program = std::string(HOUSE_BIN_DIR) + "/../test_bin/broken_participant";
+
+TEST_F(Folder, TheSameProgramFromElsewhereTakesOverToTheBit) {
+  const auto expected = undisturbed(oscillator_case());
+  tests::TemporaryFolder elsewhere;
+  const auto copy = elsewhere.file("rail_of_mine");
+  std::filesystem::copy_file(tests::bin_folder + "/oscillator_participant", copy);
+  EXPECT_EQ(run.run(resuming(run, {"--fem", stand_in(elsewhere, copy + implicit_side)})).value_or(-1), 0)
+      << run.message();
+  EXPECT_TRUE(contains(run.log(), "started fem: " + elsewhere.file("stand_in"))) << run.log();
+  EXPECT_EQ(ending_of(run), expected);
+}
+
+TEST_F(Folder, AnotherProgramTakesOverWhenThatIsAllowed) {
+  const auto expected = undisturbed(oscillator_case());
+  tests::TemporaryFolder elsewhere;
+  const std::vector<std::string> other{"--fem", stand_in(elsewhere, other_program + " --side implicit --fault none")};
+  EXPECT_EQ(run.run(resuming(run, other)).value_or(-1), code(proto::ExitCode::config));
+  EXPECT_TRUE(contains(run.message(), "the state of another fem: 'oscillator_participant', this is ''"))
+      << run.message();
+  auto allowed = other;
+  allowed.insert(allowed.end(), {"--allow", "program"});
+  ASSERT_EQ(run.run(resuming(run, allowed)).value_or(-1), 0) << run.message();
+  // The same model: it went on from the state, not from its beginning.
+  const auto is = ending_of(run).record;
+  ASSERT_EQ(is.size(), expected.record.size());
+  EXPECT_TRUE(tests::near_abs(is.back(), expected.record.back(), 1e-9));
+}
+
+TEST(HotSwap, AStateOfAnotherFormIsRefused) {
+  tests::OscillatorCase variant;
+  variant.fem_command = "[\"" + other_program + "\", \"--side\", \"implicit\", \"--fault\", \"none\"]";
+  CoupledRun run(variant.text());
+  ASSERT_EQ(run.run().value_or(-1), 0) << run.message();
+  variant.duration_s = 5.0;
+  std::ofstream(run.case_path()) << variant.text();
+  tests::TemporaryFolder elsewhere;
+  const auto program = stand_in(elsewhere, tests::bin_folder + "/oscillator_participant" + implicit_side);
+  EXPECT_EQ(run.run(resuming(run, {"--fem", program, "--allow", "case,program"})).value_or(-1),
+            code(proto::ExitCode::bad_data));
+  EXPECT_TRUE(contains(run.message(), "coupler: fem: ")) << run.message();
+  EXPECT_TRUE(contains(run.message(), "fem.h5")) << run.message();
+}
+
+TEST(Resume, WarningsOfTheFirstPartAreKept) {
+  tests::OscillatorCase variant;
+  variant.scheme = "E1";
+  variant.more_coupling =
+      "[coupling.audit]\naction = \"switch\"\nswitch_to = \"implicit\"\nwork_scale_j = 1.0\n"
+      "impulse_scale_n_s = 1.0\n";
+  CoupledRun run(variant.text());
+  ASSERT_EQ(run.run().value_or(-1), 0) << run.message();
+  const auto before = run.summary()["warnings"];
+  ASSERT_FALSE(before.empty());
+  variant.duration_s = 5.0;
+  std::ofstream(run.case_path()) << variant.text();
+  ASSERT_EQ(run.run(resuming(run, {"--allow", "case"})).value_or(-1), 0) << run.message();
+  EXPECT_EQ(run.summary()["warnings"], before);
 }
 
 /// Stones, rail and wheel for 300 windows, with everything that is recorded.

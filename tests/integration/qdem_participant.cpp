@@ -195,7 +195,7 @@ TEST(QdemParticipant, ADeviceKeepsNoEnergyLedger) {
   EXPECT_EQ(facts_of("check"), 0);
   EXPECT_EQ(written("kinetic_energy"), 3u);
   EXPECT_THROW(written("work_of_loads"), proto::Error);
-  EXPECT_EQ(facts_of("cpu"), 7);
+  EXPECT_EQ(facts_of("cpu"), 8);
   EXPECT_EQ(written("work_of_loads"), 3u);
 }
 

@@ -182,6 +182,45 @@ TEST_F(Session, a_field_of_wrong_length_is_refused) {
   EXPECT_EQ(served.get().code, 76);
 }
 
+/// One point of its own in the place of two cells.
+struct OwnPoint : MockParticipant {
+  Interface describe() override {
+    auto interface = MockParticipant::describe();
+    interface.seats[0].own_points = true;
+    return interface;
+  }
+};
+
+TEST_F(Session, with_points_of_its_own_the_pads_values_are_the_cells) {
+  Configure request{1e-3, 10, LoadMode::robin, "out", std::vector<double>(6, 1.0), {}, {}, {}};
+  for (const bool right : {true, false}) {
+    open();
+    OwnPoint mock;
+    auto served = serve_in_thread(mock, options());
+    expect<Hello>();
+    expect<Interface>();
+    if (right) request.pad_map = std::vector<double>(18, 0.5);
+    if (!right) request.pad_map.clear();
+    if (!right) {
+      EXPECT_NE(ask_fault(request).text.find("points of its own gets a pad_map"), std::string::npos);
+      continue;
+    }
+    ask<Configured>(request);
+    ask<Result>(Start{});
+    auto advance = window(0);
+    advance.data.set(field::force_carry, std::vector<double>(6, 0.0));
+    ask<Result>(advance);
+    endpoint->send("mock", Commit{0});
+    advance.window = 1;
+    advance.data.set(field::force_carry, std::vector<double>(3, 0.0));
+    EXPECT_NE(ask_fault(advance).text.find("'force_carry' has 3 values, the registered cells have 6"),
+              std::string::npos);
+    EXPECT_EQ(served.get().code, 76);
+    pending.clear();
+    endpoint.reset();
+  }
+}
+
 TEST_F(Session, a_window_beyond_the_last_is_refused) {
   open();
   MockParticipant mock;

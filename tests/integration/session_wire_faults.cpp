@@ -43,7 +43,7 @@ class Endpoint : public tests::SessionHarness {
 
 TEST_F(Endpoint, another_protocol_version_is_rejected_with_both_numbers) {
   for (const auto& [major, minor] :
-       {std::pair(2u, 0u), std::pair(0u, 9u), std::pair(1u, 0u), std::pair(4294967295u, 0u)}) {
+       {std::pair(2u, 0u), std::pair(0u, 9u), std::pair(1u, 1u), std::pair(4294967295u, 0u)}) {
     RawDealer dealer(endpoint->address());
     auto greeting = hello();
     greeting.protocol_major = major, greeting.protocol_minor = minor;
@@ -52,12 +52,12 @@ TEST_F(Endpoint, another_protocol_version_is_rejected_with_both_numbers) {
     EXPECT_EQ(event.participant, "");
     const auto reason = std::get<Reject>(dealer.receive().body).reason;
     EXPECT_EQ(reason, "it speaks protocol version " + std::to_string(major) + "." + std::to_string(minor) +
-                          ", the coupler 1.2");
+                          ", the coupler 1.3");
     EXPECT_EQ(event.problem, "'mock' was rejected: " + reason);
   }
 }
 
-TEST_F(Endpoint, another_schema_is_rejected_unless_the_version_is_later) {
+TEST_F(Endpoint, another_schema_is_rejected_unless_the_version_is_another) {
   auto greeting = hello();
   greeting.schema_hash ^= 1;
   RawDealer other(endpoint->address());
@@ -66,6 +66,15 @@ TEST_F(Endpoint, another_schema_is_rejected_unless_the_version_is_later) {
   greeting.protocol_minor = protocol_minor + 1;
   RawDealer later(endpoint->address());
   later.send({0, 1, 0, greeting});
+  expect<Hello>();
+}
+
+TEST_F(Endpoint, a_participant_of_the_oldest_version_that_is_taken_is_welcome) {
+  auto greeting = hello();
+  greeting.schema_hash ^= 1;
+  greeting.protocol_minor = oldest_protocol_minor;
+  RawDealer old(endpoint->address());
+  old.send({0, 1, 0, greeting});
   expect<Hello>();
 }
 

@@ -23,7 +23,7 @@ inline auto tied(const FieldSpec& m) {
 }
 inline auto tied(const SeatRegistration& m) {
   return std::tie(m.name, m.points, m.weights, m.rigid_response, m.force_resultants, m.stiffness, m.damping, m.preload,
-                  m.tension_cutoff);
+                  m.tension_cutoff, m.own_points);
 }
 inline auto tied(const FieldSet& m) {
   return std::tie(m.all());
@@ -43,7 +43,7 @@ inline auto tied(const Interface& m) {
 }
 inline auto tied(const Configure& m) {
   return std::tie(m.window_s, m.windows, m.mode, m.output_directory, m.stiffness, m.damping, m.preload,
-                  m.tension_cutoff);
+                  m.tension_cutoff, m.pad_map);
 }
 inline auto tied(const Configured& m) {
   return std::tie(m.largest_step_s, m.facts, m.largest_initialise_step_s);
@@ -108,13 +108,13 @@ inline std::vector<proto::Message> sample_messages() {
   data.set(field::pad_work, {4.0, 5.0, -0.1});
   const std::vector<Fact> facts = {{"bed.porosity", 0.41, ""}, {"bed.mesher", {}, "gmsh"}};
   const SeatRegistration seat{"seat", {1, 2, 3}, {1},       {4, 5, 6},          {7, 8, 9},
-                              {1e6},  {1e3},     {20000.0}, {true, false, true}};
+                              {1e6},  {1e3},     {20000.0}, {true, false, true}, true};
   const std::vector<Body> bodies = {
       Hello{"qdem", 1, 2, 3, 4, "token", "build", {true, false, true, true}},
       Welcome{77, 0.5},
       Reject{"the name is taken"},
       Interface{{{"impulse", "N s", 3, true}, {"rail_displacement", "m", 3, false}}, {seat, seat}},
-      Configure{5e-5, 1600, LoadMode::prescribed_force, "runs/x", {1.0}, {2.0}, {3.0}, {true, false}},
+      Configure{5e-5, 1600, LoadMode::prescribed_force, "runs/x", {1.0}, {2.0}, {3.0}, {true, false}, {0.5, 0.25}},
       Configured{1e-6, facts},
       Configured{},
       Start{},

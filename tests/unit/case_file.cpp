@@ -133,6 +133,20 @@ TEST(CaseFile, a_path_starts_at_the_case_and_must_exist) {
   EXPECT_EQ(code, ExitCode::missing_input);
 }
 
+TEST(CaseFile, case_folder_is_where_relative_paths_start) {
+  const CaseText original("[a]\n");
+  const auto folder = original.path().substr(0, original.path().rfind('/'));
+  const CaseText derived("case_folder = \"" + folder + "\"\n[a]\nhere = \"case.toml\"\n");
+  EXPECT_EQ(derived.load().section("a").existing_path("here"), original.path());
+  EXPECT_EQ(derived.load().section("a").matching_files("here", {".toml"}), std::vector<std::string>{original.path()});
+  derived.load().refuse_unknown_sections({"a"});
+  for (const char* value : {"\"relative\"", "3"}) {
+    const CaseText wrong(std::string("case_folder = ") + value + "\n");
+    EXPECT_EQ(error_of([&] { wrong.load(); }),
+              "an absolute path is wanted - case.toml:1:15: case_folder - remove it: relative paths start at the file");
+  }
+}
+
 TEST(CaseFile, unknown_sections_are_refused) {
   const CaseText file("[track]\n[couplin]\n");
   EXPECT_EQ(error_of([&] {

@@ -97,7 +97,7 @@ fem::InterfaceProblem small_problem() {
   p.contact_column = Eigen::VectorXd::Constant(1, 3e-7);
   p.approach_0 = 1e-4;
   p.contact_slope = 5e-11;
-  p.coefficient = 9e10;
+  p.contact_law = fem::hertz_law(9e10);
   return p;
 }
 

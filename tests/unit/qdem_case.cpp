@@ -13,6 +13,21 @@
 
 namespace {
 
+const std::string soil =
+    "[[qdem.material]]\nname = \"soil\"\nyoung_pa = 5e7\npoisson = 0.3\ndensity_kg_per_m3 = 2000\n";
+const std::string elements =
+    "[qdem.subgrade]\nkind = \"layer\"\nmaterial = \"soil\"\nthickness_m = 1.0\nwidth_m = 3.0\n";
+
+/// Writes the small case with `law` in its contact; returns its path.
+std::string case_with_law(const std::string& keys, const std::string& law) {
+  const auto path = tests::small_bed_case(testing::TempDir(), keys);
+  std::string text = proto::CaseFile::load(path).text();
+  const std::string contact = "[qdem.contact]\n";
+  text.insert(text.find(contact) + contact.size(), law);
+  std::ofstream(path) << text;
+  return path;
+}
+
 qdem::QdemCase read(const std::string& keys) {
   return qdem::read_qdem_case(proto::CaseFile::load(tests::small_bed_case(testing::TempDir(), keys)));
 }
@@ -208,11 +223,7 @@ TEST(QdemCase, AnEngineThatIsNotThereIsRefused) {
 
 TEST(QdemCase, ADeviceEngineIsRefusedWhatItDoesNotKnow) {
   const auto refusal = [](const std::string& tables, const std::string& law = "") -> std::string {
-    const auto path = tests::small_bed_case(testing::TempDir(), "engine = \"check\"\n" + tables);
-    std::string text = proto::CaseFile::load(path).text();
-    const std::string contact = "[qdem.contact]\n";
-    text.insert(text.find(contact) + contact.size(), law);
-    std::ofstream(path) << text;
+    const auto path = case_with_law("engine = \"check\"\n" + tables, law);
     try {
       qdem::check_case(proto::CaseFile::load(path));
       return "accepted";
@@ -230,6 +241,7 @@ TEST(QdemCase, ADeviceEngineIsRefusedWhatItDoesNotKnow) {
       "loss_factor_frequency_hz = 40.0\n";
   EXPECT_EQ(refusal(""), "accepted");
   expect(refusal("", "law = \"sphere\"\n"), "contact spheres");
+  expect(refusal(soil + elements + "element_m = 0.1\n"), "a subgrade of elements");
   expect(refusal("[qdem.under_sleeper_pad]\n" + layer), "a pad under the sleeper");
   expect(refusal("[qdem.under_ballast_mat]\n" + layer), "ground that gives way");
   const std::string weight = "[[qdem.run.load]]\nkind = \"drop_weight\"\nmass_kg = 10.0\ndrop_height_m = 0.002\n";
@@ -267,8 +279,6 @@ TEST(QdemCase, ALossFactorIsARetardationTime) {
 
 namespace {
 
-const std::string soil =
-    "[[qdem.material]]\nname = \"soil\"\nyoung_pa = 5e7\npoisson = 0.3\ndensity_kg_per_m3 = 2000\n";
 const std::string pad =
     "[qdem.under_sleeper_pad]\nbedding_modulus_n_per_m3 = 2e8\nfootprint_m2 = 1e-3\nloss_factor = 0.2\n"
     "loss_factor_frequency_hz = 30\n";
@@ -304,6 +314,47 @@ TEST(QdemCase, RefusesLayersThatCannotBe) {
   expect_refused(soil + "[qdem.subgrade]\nkind = \"half_space\"\nmaterial = \"sol\"\nfootprint_radius_m = 0.05\n",
                  "did you mean 'soil'");
   expect_refused("[qdem.subgrade]\nfootprint_radius_m = 0.05\n", "footprint_radius_m");
+}
+
+TEST(QdemCase, ReadsASubgradeOfElements) {
+  EXPECT_FALSE(read("").physics.subgrade);
+  const auto physics = read("particle_interaction = \"bond\"\n" + soil + elements +
+                            "element_m = 0.1\nboundary_stiffness = [1.2, 0.6]\nhighest_frequency_hz = 80.0\n")
+                           .physics;
+  ASSERT_TRUE(physics.subgrade);
+  const qdem::SubgradeLayer& layer = *physics.subgrade;
+  EXPECT_EQ(layer.material.density, 2000);
+  EXPECT_EQ(layer.material.interaction, qdem::Interaction::quadruple);
+  EXPECT_EQ(layer.thickness, 1.0);
+  EXPECT_EQ(layer.width, 3.0);
+  EXPECT_EQ(layer.element, 0.1);
+  EXPECT_EQ(layer.normal_stiffness, 1.2);
+  EXPECT_EQ(layer.tangential_stiffness, 0.6);
+  EXPECT_EQ(layer.highest_frequency, 80.0);
+  EXPECT_TRUE(physics.ground.is_rigid());
+  EXPECT_EQ(physics.materials().back().name, "soil");
+  EXPECT_TRUE(tests::near_rel(layer.resolved_frequency(), std::sqrt(5e7 / 2.6 / 2000) / 1.0, 1e-12));
+}
+
+TEST(QdemCase, RefusesASubgradeOfElementsThatCannotBe) {
+  expect_refused(soil + elements, "qdem.subgrade.element_m");
+  expect_refused(soil + elements + "element_m = -0.1\n", "greater than 0");
+  expect_refused(soil + elements + "element_m = 1.5\n", "larger than the layer is thick");
+  expect_refused(soil + elements + "element_m = 0.1\nboundary_stiffness = [1.0]\n", "two numbers");
+  expect_refused(soil + elements + "element_m = 0.1\nboundary_stiffness = [0.0, 0.5]\n", "sinks under the weight");
+  expect_refused(soil + elements + "element_m = 0.1\nfootprint_radius_m = 0.1\n", "footprint_radius_m");
+  expect_refused(soil + "[qdem.subgrade]\nkind = \"layer\"\nmaterial = \"soil\"\nthickness_m = -1.0\n",
+                 "qdem.subgrade.thickness_m");
+  expect_refused(soil + elements + "element_m = 0.1\n" +
+                     "[qdem.under_ballast_mat]\nbedding_modulus_n_per_m3 = 5e7\nfootprint_m2 = 8e-3\n",
+                 "cannot carry [qdem.under_ballast_mat]");
+  try {
+    qdem::read_qdem_case(
+        proto::CaseFile::load(case_with_law(soil + elements + "element_m = 0.1\n", "law = \"sphere\"\n")));
+    FAIL() << "accepted";
+  } catch (const proto::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("fall between the particles"), std::string::npos) << error.what();
+  }
 }
 
 TEST(QdemCase, RefusesWhatItCannotUse) {

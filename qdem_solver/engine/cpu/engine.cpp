@@ -29,6 +29,7 @@ Engine::Data::Data(const Model& the_model, EngineOptions the_options)
       contact(model),
       pads(model),
       loads(model),
+      boundary(model),
       device(make_stepper(model, options)) {}
 
 Engine::Engine(const Model& model, EngineOptions options) : data_(std::make_unique<Data>(model, std::move(options))) {}
@@ -63,8 +64,9 @@ void Engine::Data::drift(State& state, double dt) {
 
 void Engine::Data::kick(State& state, const Batch& batch, int first, int last, double dt) {
   const std::int64_t at = batch.offset + std::int64_t{3} * first * batch.lanes;
+  const Eigen::Vector3d gravity = model.gravity_on(batch.bodies[0]);
   kernels.kick({dt,
-                {model.gravity[0], model.gravity[1], model.gravity[2]},
+                {gravity[0], gravity[1], gravity[2]},
                 relaxing() ? 0.0 : model.local_damping,
                 model.drag_per_s,
                 batch.lanes,
@@ -88,7 +90,8 @@ void Engine::Data::scale_inertia(const State& state, const Batch& batch, double 
       free[i * batch.lanes + lane] = free_motions[6 * batch.bodies[lane] + i];
     }
   }
-  kernels.scale_inertia({{model.gravity[0], model.gravity[1], model.gravity[2]},
+  const Eigen::Vector3d gravity = model.gravity_on(batch.bodies[0]);
+  kernels.scale_inertia({{gravity[0], gravity[1], gravity[2]},
                          model.local_damping,
                          relaxation_drag(model.local_damping, dt),
                          batch.lanes,
@@ -165,6 +168,7 @@ void Engine::Data::run_outer(const State& state, const Task& task, Span<const do
     if (batch.bodies[lane] < 0) continue;
     contact.gather(batch.bodies[lane], force);
     loads.add(batch.bodies[lane], state, force);
+    boundary.add(batch.bodies[lane], state, force);
     if (batch.bodies[lane] != model.pad_body) continue;
     pads.add_transposed(pad_force, force);
     if (!model.pad_body_load.isZero()) add_load(batch);
@@ -176,6 +180,7 @@ void Engine::Data::begin_step(State& state, double dt, double time) {
   drift(state, dt);
   contact.update_candidates(state, moves);
   book_contacts(state.ledger, contact.compute(state, dt), dt);
+  book_radiation(state, dt);
   book_work(state.ledger, loads.update(state, dt));
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "qdem_solver/engine/boundary_forces.hpp"
 #include "qdem_solver/engine/cpu/aligned_values.hpp"
 #include "qdem_solver/engine/cpu/tasks.hpp"
 #include "qdem_solver/engine/engine.hpp"
@@ -41,6 +42,7 @@ struct Engine::Data {
                                  const std::vector<double>& x) const;
   double viscous_power(const State& state, const cpu::Task& task);
   static void book_contacts(EnergyLedger& ledger, const ContactPower& power, double dt);
+  void book_radiation(State& state, double dt) const;
   static void book_work(EnergyLedger& ledger, double work);
   PadSums advance_on_device(State& state, double dt, std::int64_t n_steps, const PadDrive* drive);
 
@@ -58,6 +60,7 @@ struct Engine::Data {
   ContactStage contact;
   PadOperator pads;
   PatchLoads loads;
+  BoundaryForces boundary;
   std::vector<double> pad_reference;  ///< pad values of the positions that count as undisplaced [m]
   std::unique_ptr<Stepper> device;    ///< makes the steps in place of all the above; nullptr: the CPU does
 };

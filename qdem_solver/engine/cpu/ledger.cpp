@@ -18,22 +18,25 @@ double gravity_energy(const Model& model, const State& state) {
     for (int node = 0; node < model.shape(body).n_nodes(); ++node) {
       moment += model.node_mass(body, node) * state.position(model, body, node);
     }
-    sum -= model.gravity.dot(moment);
+    sum -= model.gravity_on(body).dot(moment);
   }
   return sum;
 }
 
 StoredEnergy difference(const StoredEnergy& p, const StoredEnergy& q) {
-  return {p.kinetic - q.kinetic, p.strain - q.strain, p.contact - q.contact, p.gravity - q.gravity};
+  return {p.kinetic - q.kinetic, p.strain - q.strain, p.contact - q.contact, p.gravity - q.gravity,
+          p.boundary - q.boundary};
 }
 
 double sum_of(const StoredEnergy& energy) {
-  return energy.kinetic + energy.strain + energy.contact + energy.gravity;
+  return energy.kinetic + energy.strain + energy.contact + energy.gravity + energy.boundary;
 }
 
 double gained(const StoredEnergy& change) {
   double sum = 0.0;
-  for (const double part : {change.kinetic, change.strain, change.contact, change.gravity}) sum += std::max(0.0, part);
+  for (const double part : {change.kinetic, change.strain, change.contact, change.gravity, change.boundary}) {
+    sum += std::max(0.0, part);
+  }
   return sum;
 }
 
@@ -90,7 +93,7 @@ double Engine::viscous_power(const State& state) const {
 StoredEnergy Engine::stored(const State& state) const {
   const Energies energies = this->energies(state);
   return {energies.kinetic, energies.strain, data_->contact.report(state).elastic_energy,
-          gravity_energy(data_->model, state)};
+          gravity_energy(data_->model, state), data_->boundary.energy(state)};
 }
 
 void Engine::open_ledger(State& state) const {
@@ -102,6 +105,7 @@ void Engine::open_ledger(State& state) const {
   state.ledger.first_step = state.step;
   state.ledger.viscous_time = state.time;
   state.ledger.viscous_power = viscous_power(state);
+  state.ledger.radiated_power = data_->boundary.radiated_power(state);
   state.ledger.contact_power = contact_power;
 }
 
@@ -119,7 +123,8 @@ EnergyBalance Engine::balance(const State& state) const {
   }
   balance.contact_dashpots = ledger.contact_dashpots;
   balance.friction = ledger.friction;
-  const double elastic = ledger.start.strain + ledger.start.contact;
+  balance.radiated = ledger.radiated;
+  const double elastic = ledger.start.strain + ledger.start.contact + ledger.start.boundary;
   balance.scale = std::max(
       {ledger.largest_work, balance.dissipated(), gained(balance.change), ledger.start.kinetic, least_share * elastic});
   return balance;
@@ -131,6 +136,14 @@ void Engine::Data::book_contacts(EnergyLedger& ledger, const ContactPower& power
     ledger.friction += 0.5 * dt * (ledger.contact_power.friction + power.friction);
   }
   ledger.contact_power = power;
+}
+
+void Engine::Data::book_radiation(State& state, double dt) const {
+  EnergyLedger& ledger = state.ledger;
+  if (!ledger.open) return;
+  const double power = boundary.radiated_power(state);
+  ledger.radiated += 0.5 * dt * (ledger.radiated_power + power);
+  ledger.radiated_power = power;
 }
 
 void Engine::Data::book_work(EnergyLedger& ledger, double work) {

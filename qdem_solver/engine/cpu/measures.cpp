@@ -86,16 +86,17 @@ double Engine::largest_speed(const State& state) const {
 
 double Engine::unbalanced_ratio(const State& state) const {
   const Model& model = data_->model;
-  std::vector<double> contact(model.n_values, 0.0), pads(model.n_values, 0.0);
+  std::vector<double> contact(model.n_values, 0.0), pads(model.n_values, 0.0), beyond(model.n_values, 0.0);
   data_->pads.add_transposed(state.pad_force, pads);
   double resultants = 0.0, contacts = 0.0;
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
     data_->contact.gather(body, contact);
-    Eigen::Vector3d sum = model.body_mass(body) * model.gravity;
+    data_->boundary.add(body, state, beyond);
+    Eigen::Vector3d sum = model.body_mass(body) * model.gravity_on(body);
     if (body == model.pad_body) sum += model.pad_body_load;
     for (int node = 0; node < model.shape(body).n_nodes(); ++node) {
       const Eigen::Vector3d touch = State::gather(model, contact, body, node);
-      sum += touch + State::gather(model, pads, body, node);
+      sum += touch + State::gather(model, pads, body, node) + State::gather(model, beyond, body, node);
       contacts += touch.norm();
     }
     const double* free = &data_->free_motions[6 * body];
