@@ -1,5 +1,6 @@
 # Tests of fem.
 house_test(fem_contact unit SOURCES unit/fem_contact.cpp LIBRARIES fem::solid)
+house_test(fem_profile_test unit SOURCES unit/fem_profile.cpp LIBRARIES fem::profile)
 house_test(fem_cholesky unit SOURCES unit/fem_cholesky.cpp LIBRARIES fem::linear)
 house_test(fem_interface_operator unit SOURCES unit/fem_interface_operator.cpp
            LIBRARIES fem::solid fem::beam_rail)
@@ -15,6 +16,10 @@ house_test(fem_newmark convergence SOURCES convergence/fem_newmark.cpp LIBRARIES
 house_test(fem_participant_window integration SOURCES integration/fem_participant.cpp
            LIBRARIES fem::participant_openmpi fem::solid fem::beam_rail)
 house_test(fem_beam_test verification SOURCES verification/fem_beam.cpp LIBRARIES fem::beam_rail)
+house_test(fem_rail_ends verification SOURCES verification/fem_rail_ends.cpp LIBRARIES fem::solid fem::beam_rail)
+house_test(fem_wheel_surfaces unit SOURCES unit/fem_wheel_surfaces.cpp LIBRARIES fem::beam_rail)
+house_test(fem_solid_wheel verification SOURCES verification/fem_solid_wheel.cpp LIBRARIES fem::solid fem::beam_rail)
+house_test(fem_support_pads verification SOURCES verification/fem_support_pads.cpp LIBRARIES fem::solid fem::beam_rail)
 house_test(fem_solid_and_beam verification SOURCES verification/fem_solid_and_beam.cpp
            LIBRARIES proto::result_serial nlohmann_json::nlohmann_json)
 add_dependencies(fem_solid_and_beam coupler oscillator_participant fem_solver fem_beam)

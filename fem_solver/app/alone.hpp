@@ -3,17 +3,18 @@
 
 #include <string>
 
+#include "fem_solver/app/command_line.hpp"
 #include "fem_solver/participant/fem_participant.hpp"
 
 namespace fem {
 
 /// Builds the rail and places the wheel along its whole way. Throws proto::Error for what cannot be run.
-void check_case(const FemCase& input, const RailBuilder& build);
+void check_case(const FemCase& input, const FemProgram& program);
 
 /// Prints section, deflection under the standing wheel and seat forces.
-void print_static(const FemCase& input, const RailBuilder& build);
+void print_static(const FemCase& input, const FemProgram& program);
 
-/// Runs the case with every seat on the support model; writes `out`/fem.h5 as `program`.
-void run_alone(const FemCase& input, const RailBuilder& build, const std::string& program, const std::string& out);
+/// Runs the case with every seat on the support model; writes `out`/fem.h5.
+void run_alone(const FemCase& input, const FemProgram& program, const std::string& out);
 
 }  // namespace fem

@@ -3,6 +3,7 @@
 #include "fem_solver/beam/beam_rail.hpp"
 
 int main(int argc, char** argv) {
-  return fem::fem_program(argc, argv,
-                          {"fem_beam", "Rail and wheel of a ballasted track (Timoshenko beam).", fem::build_beam_rail});
+  return fem::fem_program(
+      argc, argv,
+      {"fem_beam", "Rail and wheel of a ballasted track (Timoshenko beam).", fem::build_beam_rail, fem::mass_wheel});
 }

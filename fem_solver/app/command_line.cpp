@@ -49,14 +49,14 @@ int run(int argc, char** argv, const FemProgram& program) {
   }
   auto input = read_fem_case(path);
   if (check->parsed()) {
-    check_case(input, program.build);
+    check_case(input, program);
   } else if (statics->parsed()) {
-    print_static(input, program.build);
+    print_static(input, program);
   } else if (alone->parsed()) {
-    run_alone(input, program.build, program.name, out);
+    run_alone(input, program, out);
   } else {
     const auto options = proto::read_session_options(endpoint, input.file.hash(), keys);
-    FemParticipant body(std::move(input), program.name, name, program.build);
+    FemParticipant body(std::move(input), program.name, name, program.build, program.build_wheel);
     proto::serve(body, options);
   }
   return 0;

@@ -5,13 +5,15 @@
 
 #include "fem_solver/app/contact_tool.hpp"
 #include "fem_solver/rail/rail_model.hpp"
+#include "fem_solver/wheel/wheel_model.hpp"
 
 namespace fem {
 
-/// One program: its rail is what distinguishes it.
+/// One program: its rail and wheel are what distinguishes it.
 struct FemProgram {
   std::string name, description;
   RailBuilder build;
+  WheelBuilder build_wheel;
   ContactAnalyser blocks = nullptr;  ///< of the tool `contact`, where the program has solid elements
 };
 

@@ -1,4 +1,4 @@
-// The rail as quadratic hexahedra: nodes, elasticity matrices, interpolation. The only door to deal.II.
+// The rail as quadratic hexahedra: an extruded cross-section.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "fem_solver/assembly/rail_kinematics.hpp"
-#include "fem_solver/linear/sparse_matrix.hpp"
-#include "fem_solver/model/material.hpp"
+#include "fem_solver/assembly/solid_mesh.hpp"
 #include "fem_solver/model/rail_section.hpp"
 
 namespace fem {
@@ -38,12 +37,8 @@ class RailMesh : public RailKinematics {
   double lateral() const;
   const std::vector<Eigen::Vector3d>& nodes() const;
 
-  /// Lower triangle of the stiffness matrix of linear elasticity, 3 x 3 x 3 Gauss points [N/m].
-  SparseMatrix stiffness(const Material& material) const;
-
-  /// Volume that the 3 x 3 x 3 Gauss-Lobatto rule gives each node [m3]: positive, sums to the mesh's volume. Times the
-  /// density it is the lumped mass, of the same order in the element size as the consistent one.
-  Eigen::VectorXd node_volumes() const;
+  /// The elements, with their matrices. Cells count the blocks of a slab first, then the slabs.
+  const SolidMesh& solid() const;
 
   /// Area that each node holds of the two end faces [m2], zero inside.
   Eigen::VectorXd end_face_areas() const;
@@ -57,9 +52,6 @@ class RailMesh : public RailKinematics {
 
   /// Corner nodes of each element in the order of a VTK hexahedron.
   std::vector<std::array<int, 8>> hexahedra() const;
-
-  /// Von Mises stress at each element's centre for the displacement `u` [m] of all degrees of freedom [Pa].
-  std::vector<double> von_mises(const Eigen::VectorXd& u, const Material& material) const;
 
  private:
   struct Data;

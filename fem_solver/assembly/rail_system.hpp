@@ -12,7 +12,9 @@ namespace fem {
 /// Matrices of the track, and the mesh whose degrees of freedom come first.
 struct RailSystem : TrackSystem {
   std::unique_ptr<RailMesh> mesh;
-  double element_length = 0.0;  ///< [m]
+  double element_length = 0.0;  ///< of the refined part [m]
+  double fine_begin = 0.0;      ///< where it begins [m]
+  double fine_end = 0.0;        ///< and ends [m]
   int planes_per_bay = 0;       ///< elements along x in one bay
 };
 

@@ -21,7 +21,8 @@ constexpr double pi = 3.14159265358979323846;
 std::vector<proto::RailSeat> support_seats(const FemSettings& s, const std::vector<proto::RailSeat>& seats,
                                            SeatOwner owner) {
   std::vector<proto::RailSeat> supports;
-  for (int i = -s.n_bays / 2; i <= s.n_bays / 2; ++i) {
+  const int last = s.n_bays / 2 + s.end_layer_bays;
+  for (int i = -last; i <= last; ++i) {
     const double x = i * s.sleeper_spacing;
     const auto same =
         std::find_if(seats.begin(), seats.end(), [&](const auto& q) { return std::abs(q.origin[0] - x) < 1e-6; });
@@ -62,13 +63,43 @@ void add_pads(const TrackSystem& system, Triplets& stiffness, Triplets& damping)
   }
 }
 
-void add_ballast(const TrackSystem& system, const SupportSettings& s, Triplets& stiffness, Triplets& damping) {
-  for (std::size_t i = 0; i < system.support_seats.size(); ++i)
+void add_ballast(const TrackSystem& system, const FemSettings& settings, Triplets& stiffness, Triplets& damping) {
+  const SupportSettings& s = settings.support;
+  for (std::size_t i = 0; i < system.support_seats.size(); ++i) {
+    const double layer = s.sleeper_mass * layer_damping(settings, system.support_seats[i].origin[0]);
     for (int c = 0; c < 3; ++c) {
       const int dof = system.sleeper_dof(i, c);
       stiffness.emplace_back(dof, dof, s.ballast_stiffness[c]);
-      damping.emplace_back(dof, dof, s.ballast_damping[c]);
+      damping.emplace_back(dof, dof, s.ballast_damping[c] + layer);
     }
+  }
+}
+
+// Rows of the normal motion of the supports' pad cells against their sleepers, below the coupled cells.
+void add_nonlinear_pads(TrackSystem& system, const SupportSettings& s) {
+  Triplets entries;
+  const auto add_block = [&](const SparseMatrix& block) {
+    for (int column = 0; column < block.outerSize(); ++column)
+      for (SparseMatrix::InnerIterator it(block, column); it; ++it)
+        entries.emplace_back(it.row(), it.col(), it.value());
+  };
+  add_block(system.cells);
+  int row = static_cast<int>(system.cells.rows()), value = 2;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> foot = system.support_cells;
+  for (std::size_t i = 0; i < system.support_seats.size() && !s.linear_pads(); ++i) {
+    const auto& seat = system.support_seats[i];
+    for (int cell = 0; cell < seat.n_cells(); ++cell, ++row, value += 3) {
+      for (decltype(foot)::InnerIterator it(foot, value); it; ++it) entries.emplace_back(row, it.col(), it.value());
+      for (int c = 0; c < 3; ++c)
+        entries.emplace_back(row, system.sleeper_dof(static_cast<int>(i), c), -seat.axes(c, 2));
+      proto::PadLaw pad = seat.cell_law(2);
+      pad.tension_cutoff = s.pad_tension_cutoff, pad.preload = s.pad_clip_preload * seat.cell_weight();
+      const double second = s.pad_second_stiffness * seat.cell_weight();
+      system.support_laws.push_back({pad, s.pad_second_begin, std::max(0.0, second - pad.stiffness), true});
+    }
+  }
+  system.interface.resize(row, system.cells.cols());
+  system.interface.setFromTriplets(entries.begin(), entries.end());
 }
 
 SparseMatrix from(const Triplets& entries, int n) {
@@ -79,12 +110,25 @@ SparseMatrix from(const Triplets& entries, int n) {
 
 }  // namespace
 
-RailPlanes rail_planes(const FemSettings& s) {
-  const int per_bay = static_cast<int>(std::ceil(s.sleeper_spacing / s.element_length - 1e-9));
+RailPlanes rail_planes(const FemSettings& s, double layer_element_length) {
+  const auto elements = [&](double length) { return static_cast<int>(std::ceil(s.sleeper_spacing / length - 1e-9)); };
+  const int per_bay = elements(s.element_length);
   RailPlanes planes{{}, per_bay, s.sleeper_spacing / per_bay};
   const int half = s.n_bays / 2 * per_bay + (per_bay + 1) / 2;
+  const int per_layer_bay = elements(layer_element_length);
+  const double layer_length = s.sleeper_spacing / per_layer_bay;
+  planes.n_layer = s.end_layer_bays * per_layer_bay;
+  for (int i = planes.n_layer; i > 0; --i) planes.x.push_back(-half * planes.element_length - i * layer_length);
   for (int i = -half; i <= half; ++i) planes.x.push_back(i * planes.element_length);
+  for (int i = 1; i <= planes.n_layer; ++i) planes.x.push_back(half * planes.element_length + i * layer_length);
   return planes;
+}
+
+double layer_damping(const FemSettings& s, double x) {
+  const double depth = std::abs(x) - rail_planes(s, s.sleeper_spacing).fine_end();
+  if (s.end_layer_bays == 0 || depth <= 0.0) return 0.0;
+  const double share = depth / (s.end_layer_bays * s.sleeper_spacing);
+  return s.end_layer_damping * share * share * share;
 }
 
 void check_seats(const FemSettings& s, const std::vector<proto::RailSeat>& seats) {
@@ -121,6 +165,7 @@ TrackSystem assemble_track(const FemSettings& settings, const std::vector<proto:
   // Sleepers are measured from their own state of rest, as the coupled ones are: only the rail has weight here.
   const int n_sleeper = 3 * static_cast<int>(system.support_seats.size()), n = system.n_rail_dofs + n_sleeper;
   system.cells.conservativeResize(system.cells.rows(), n);
+  add_nonlinear_pads(system, settings.support);
   system.weight = Eigen::VectorXd::Zero(n);
   if (settings.gravity) system.weight.head(system.n_rail_dofs) = matrices.weight;
   system.mass = std::move(matrices.mass);
@@ -130,7 +175,7 @@ TrackSystem assemble_track(const FemSettings& settings, const std::vector<proto:
 
   Triplets stiffness, damping;
   add_pads(system, stiffness, damping);
-  add_ballast(system, settings.support, stiffness, damping);
+  add_ballast(system, settings, stiffness, damping);
   for (int dof = 0; dof < system.n_rail_dofs; ++dof)
     if (matrices.end_damping[dof] != 0.0) damping.emplace_back(dof, dof, matrices.end_damping[dof]);
   system.support_stiffness = from(stiffness, n);

@@ -6,6 +6,7 @@
 
 #include "fem_solver/assembly/rail_kinematics.hpp"
 #include "fem_solver/linear/sparse_matrix.hpp"
+#include "fem_solver/model/interface_law.hpp"
 #include "fem_solver/model/rail_section.hpp"
 #include "fem_solver/model/settings.hpp"
 #include "proto/case/rail_seat.hpp"
@@ -30,9 +31,13 @@ struct TrackSystem {
   double stiffness_damping = 0.0;              ///< b [s]
   Eigen::VectorXd weight;                      ///< of the rail, zero when switched off [N]
   SparseMatrix cells;                          ///< coupled cells x degrees of freedom
+  SparseMatrix interface;                      ///< the same, then the nonlinear pads' cells of the own supports
+  std::vector<InterfaceLaw> support_laws;      ///< of the latter: what they do beyond their part in K_s and C_s
   SparseMatrix support_cells;                  ///< own supports' cells x degrees of freedom of the rail
   int n_rail_dofs = 0;
 
+  /// Rows of `interface` that belong to the own supports: normal motion of the foot against the sleeper.
+  auto support_pads() const { return interface.bottomRows(static_cast<Eigen::Index>(support_laws.size())); }
   int n_dofs() const { return static_cast<int>(mass.rows()); }
   /// Degree of freedom of sleeper `support` (index into support_seats), component 0..2.
   int sleeper_dof(int support, int component) const { return n_rail_dofs + 3 * support + component; }
@@ -42,18 +47,27 @@ struct TrackSystem {
 struct RailMatrices {
   SparseMatrix stiffness;       ///< lower triangle [N/m]
   SparseMatrix mass;            ///< lower triangle [kg]
-  Eigen::VectorXd end_damping;  ///< diagonal: dashpots on the end faces [N s/m]
+  Eigen::VectorXd end_damping;  ///< diagonal: dashpots on the end faces, and the absorbing layers' [N s/m]
   Eigen::VectorXd weight;       ///< [N]
 };
 
-/// Element boundaries along x: n_bays bays about x = 0 and half a bay more at each end, equal elements, a whole number
-/// of them to a bay.
+/// Element boundaries along x: n_bays bays about x = 0 and half a bay more at each end in equal elements, a whole
+/// number of them to a bay; beyond, the absorbing layers, each bay of them in equal elements too.
 struct RailPlanes {
   std::vector<double> x;  ///< ascending [m]
   int per_bay;
-  double element_length;  ///< [m]
+  double element_length;  ///< of the refined part [m]
+  int n_layer = 0;        ///< elements of the absorbing layer at each end
+
+  double fine_begin() const { return x[n_layer]; }               ///< [m]
+  double fine_end() const { return x[x.size() - 1 - n_layer]; }  ///< [m]
 };
-RailPlanes rail_planes(const FemSettings& settings);
+/// `layer_element_length`: largest in the layers [m].
+RailPlanes rail_planes(const FemSettings& settings, double layer_element_length);
+
+/// Mass-proportional damping of rail and sleepers at x [1/s]: grows with the cube of the depth in an absorbing layer,
+/// so that a wave meets no step in it; zero in the refined part.
+double layer_damping(const FemSettings& settings, double x);
 
 /// Throws proto::Error (config) for a rail seat that is not at a multiple of the sleeper spacing, at a foot that is not
 /// at z = 0, at different y, or beyond the rail.
@@ -68,7 +82,5 @@ TrackSystem assemble_track(const FemSettings& settings, const std::vector<proto:
 /// of the Euler-Bernoulli bending wave at the stated frequency across. It absorbs that frequency's transverse force,
 /// not its moment. Zero when switched off.
 Eigen::Vector3d end_impedance(const FemSettings& settings, const SectionProperties& section);
-
-constexpr double gravity = 9.81;  ///< [m/s2]
 
 }  // namespace fem

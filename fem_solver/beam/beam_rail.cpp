@@ -30,13 +30,21 @@ RailMatrices matrices_of(const BeamKinematics& beam, const FemSettings& settings
   const Eigen::Vector3d impedance = end_impedance(settings, section);
   for (const int node : {0, beam.n_nodes() - 1})
     rail.end_damping.segment<3>(per_node * node) = section.area * impedance;
+  const double density = settings.material.density * beam.planes().element_length;
+  for (int n = 0; n < beam.n_nodes(); ++n) {
+    const double damping = layer_damping(settings, beam.planes().x[n]) * density;
+    const double vertical = section.inertia_vertical, lateral = section.inertia_lateral;
+    rail.end_damping.segment<3>(per_node * n).array() += damping * section.area;
+    rail.end_damping.segment<3>(per_node * n + 3) += damping * Eigen::Vector3d(vertical + lateral, vertical, lateral);
+  }
   rail.weight = symmetric(rail.mass) * (-gravity * beam.rigid_motions(Eigen::Vector3d::Zero()).col(2));
   return rail;
 }
 
 BeamKinematics checked_beam(const FemSettings& settings, const std::vector<proto::RailSeat>& seats) {
   check_seats(settings, seats);
-  return {rail_section(settings.profile), settings.material, rail_planes(settings), seats.front().origin[1]};
+  return {settings.section(), settings.material, rail_planes(settings, settings.element_length),
+          seats.front().origin[1]};
 }
 
 }  // namespace
@@ -98,7 +106,7 @@ BandWeights BeamBand::at(double x) const {
   constexpr int margin = 3;  // elements
   const auto& planes = beam_.planes();
   const double along = (x - planes.x.front()) / planes.element_length;
-  if (!(along >= margin && along <= beam_.n_elements() - margin)) refuse_end(x);
+  if (!(along >= planes.n_layer + margin && along <= beam_.n_elements() - planes.n_layer - margin)) refuse_end(x);
   const int e = static_cast<int>(along);
   const Eigen::RowVectorXd deflection = beam_.element().motion(along - e).row(2);
   return {2 * e,

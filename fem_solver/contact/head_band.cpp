@@ -36,10 +36,11 @@ double shape(int plane, double t) {
 
 std::vector<std::vector<RunningBand::Share>> HeadBand::node_planes(const RailSystem& system) {
   const auto& mesh = *system.mesh;
-  const int n_planes = 2 * static_cast<int>(mesh.planes().size()) - 1;
+  const double length = system.fine_end - system.fine_begin;
+  const int n_planes = 2 * static_cast<int>(std::lround(length / system.element_length)) + 1;
   std::vector<std::vector<Share>> stations;
   for (int plane = 0; plane < n_planes; ++plane) {
-    const double x = std::min(mesh.planes().front() + plane * system.element_length / 2, mesh.planes().back());
+    const double x = std::min(system.fine_begin + plane * system.element_length / 2, system.fine_end);
     std::vector<Share> shares;
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d point(x, mesh.lateral() + (k - 1) * mesh.section().head_half_width,
@@ -55,7 +56,7 @@ std::vector<std::vector<RunningBand::Share>> HeadBand::node_planes(const RailSys
 
 HeadBand::HeadBand(const RailSystem& system)
     : RunningBand(node_planes(system), system.n_dofs()),
-      first_x_(system.mesh->planes().front()),
+      first_x_(system.fine_begin),
       spacing_(system.element_length / 2) {}
 
 BandWeights HeadBand::at(double x) const {

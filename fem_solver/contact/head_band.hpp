@@ -6,10 +6,10 @@
 
 namespace fem {
 
-/// Stations are node planes (two per element). A wheel's force is spread along the rail by a cubic B-spline two
-/// elements long, integrated against the elements' shape functions, and evenly across the flat top of the head's middle
-/// block (Simpson's weights of its quadratic edge). The weights vary smoothly with the place, so a moving wheel does
-/// not feel the elements; they sum to one and reproduce the place.
+/// Stations are node planes (two per element) of the refined part. A wheel's force is spread along the rail by a cubic
+/// B-spline two elements long, integrated against the elements' shape functions, and evenly across the flat top of the
+/// head's middle block (Simpson's weights of its quadratic edge). The weights vary smoothly with the place, so a moving
+/// wheel does not feel the elements; they sum to one and reproduce the place.
 class HeadBand : public RunningBand {
  public:
   explicit HeadBand(const RailSystem& system);

@@ -27,9 +27,10 @@ void RunningBand::add_load(const BandWeights& place, double force, Eigen::Vector
 }
 
 void RunningBand::refuse_end(double x) {
-  throw proto::Error(proto::ExitCode::config,
-                     "the wheel at x = " + std::to_string(x) + " m comes within three elements of the rail's end",
-                     "wheel.start_m, wheel.speed_m_per_s, coupling.duration_s", "raise fem.n_bays or shorten the run");
+  throw proto::Error(
+      proto::ExitCode::config,
+      "the wheel at x = " + std::to_string(x) + " m comes within three elements of the refined rail's end",
+      "wheel.start_m, wheel.speed_m_per_s, coupling.duration_s", "raise fem.n_bays or shorten the run");
 }
 
 }  // namespace fem

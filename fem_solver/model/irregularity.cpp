@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
-#include "proto/error.hpp"
+#include "fem_solver/model/columns.hpp"
 
 namespace fem {
 namespace {
@@ -22,6 +20,21 @@ double corrugation(const Irregularity& r, double x) {
   if (s <= 0) return 0.0;
   const double fade = s < 1 ? s * s * (3 - 2 * s) : 1.0;
   return r.depth * fade * std::sin(2 * pi * s);
+}
+
+// Distance from the middle of the flat that is nearest to the rail.
+double from_flat(const Irregularity& r, double x) {
+  return std::remainder(x - r.position, 2 * pi * r.radius);
+}
+
+double fresh_flat(const Irregularity& r, double x) {
+  const double from_edge = r.length / 2 - std::abs(from_flat(r, x));
+  return from_edge > 0 ? std::sqrt(r.radius * r.radius - from_edge * from_edge) - r.radius : 0.0;
+}
+
+double rounded_flat(const Irregularity& r, double x) {
+  const double s = from_flat(r, x);
+  return std::abs(s) < r.length / 2 ? -r.depth / 2 * (1 + std::cos(2 * pi * s / r.length)) : 0.0;
 }
 
 double interpolated(const Irregularity& r, double x) {
@@ -44,32 +57,20 @@ double Irregularity::height_at(double position_along_track) const {
       return corrugation(*this, position_along_track);
     case IrregularityKind::table:
       return interpolated(*this, position_along_track);
+    case IrregularityKind::fresh_flat:
+      return fresh_flat(*this, position_along_track);
+    case IrregularityKind::rounded_flat:
+      return rounded_flat(*this, position_along_track);
   }
   return 0.0;
 }
 
 Irregularity read_irregularity_table(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw proto::Error(proto::ExitCode::missing_input, "cannot read the rail irregularity", path);
+  const TwoColumns file(path, "irregularity table", "x_m, height_m");
+  file.require_ascending();
   Irregularity table;
   table.kind = IrregularityKind::table;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    line = line.substr(0, line.find('#'));
-    std::replace(line.begin(), line.end(), ',', ' ');
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    std::istringstream columns(line);
-    double x, height;
-    std::string rest;
-    const bool read = static_cast<bool>(columns >> x >> height) && !(columns >> rest);
-    if (!read || !std::isfinite(x) || !std::isfinite(height) || (!table.x.empty() && x <= table.x.back()))
-      throw proto::Error(proto::ExitCode::bad_data,
-                         "a line of the irregularity table is not 'x_m, height_m' with ascending x",
-                         path + ":" + std::to_string(number));
-    table.x.push_back(x), table.height.push_back(height);
-  }
-  if (table.x.size() < 2)
-    throw proto::Error(proto::ExitCode::bad_data, "an irregularity table needs at least two lines", path);
+  for (const auto& row : file.rows()) table.x.push_back(row.first), table.height.push_back(row.second);
   return table;
 }
 

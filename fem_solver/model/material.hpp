@@ -3,6 +3,8 @@
 
 namespace fem {
 
+constexpr double gravity = 9.81;  ///< [m/s2]
+
 /// Isotropic linear elastic material.
 struct Material {
   double young = 210e9;  ///< [Pa]

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "fem_solver/model/section_blocks.hpp"
+#include "fem_solver/model/section_warping.hpp"
 #include "proto/error.hpp"
 
 namespace fem {
@@ -14,34 +16,81 @@ namespace {
 // R35 and R120 in the standard) enters as one arc of 20 mm, which gives the tabulated area within 0.2 %. The outer head
 // corner and the foot edge stand for their rounded arcs: they are placed so that the polygon keeps area and second
 // moments.
-constexpr double half_60e1[][2] = {
-    {21.0, 0.0}, {48.0, 0.0}, {75.0, 0.0},  {75.0, 10.8},   {48.0, 13.9},  {21.0, 23.9},  {12.5, 31.6},
-    {9.3, 44.0}, {8.2, 80.0}, {9.5, 118.0}, {12.5, 125.15}, {37.0, 135.0}, {35.4, 166.6}, {12.5, 171.72},
+const HalfCorners& half_60e1() {
+  static const HalfCorners corners = [] {
+    HalfCorners metres = {{21.0, 0.0},    {48.0, 0.0},   {75.0, 0.0},   {75.0, 10.8},  {48.0, 13.9},
+                          {21.0, 23.9},   {12.5, 31.6},  {9.3, 44.0},   {8.2, 80.0},   {9.5, 118.0},
+                          {12.5, 125.15}, {37.0, 135.0}, {35.4, 166.6}, {12.5, 171.72}};
+    for (auto& p : metres) p *= 1e-3;
+    return metres;
+  }();
+  return corners;
+}
+
+// Sizes of a standard's drawing [mm]. Head and foot depth: from top or bottom to where the fishing faces meet the plane
+// of symmetry.
+struct Sizes {
+  double height, foot_width, head_width, web, head_depth, foot_depth;
 };
-constexpr int n_half = sizeof(half_60e1) / sizeof(half_60e1[0]);
+constexpr Sizes sizes_60e1{172.0, 150.0, 72.0, 16.5, 51.0, 31.5};
+
+// One shipped profile: table figures of its standard [cm2, cm4, kg/m].
+struct Standard {
+  const char* name;
+  const char* source;
+  Sizes sizes;
+  double area, inertia_vertical, inertia_lateral, mass;
+};
+
+// Sizes of the Japanese rails: a maker's table of rail sections (columns of JIS E 1101). Areas and second moments: the
+// project's table of rails, from memory of JIS E 1101.
+constexpr Standard standards[] = {
+    {"60E1", "EN 13674-1", sizes_60e1, 76.70, 3038.3, 512.3, 60.21},
+    {"JIS60", "JIS E 1101", {174.0, 145.0, 65.0, 16.5, 49.0, 30.1}, 77.50, 3090.0, 512.0, 60.8},
+    {"JIS50N", "JIS E 1101", {153.0, 127.0, 65.0, 15.0, 49.0, 30.0}, 64.20, 1960.0, 322.0, 50.4},
+};
 
 RailSection section_60e1() {
-  RailSection s;
-  for (const double side : {1.0, -1.0})
-    for (const auto& p : half_60e1) s.vertices.emplace_back(side * p[0] * 1e-3, p[1] * 1e-3);
-  const auto left = [](int right) { return right + n_half; };
-  const auto across = [&](int low, int high) { s.quads.push_back({left(low), low, left(high), high}); };
-  const auto both = [&](int a, int b, int c, int d) {
-    s.quads.push_back({a, b, c, d});
-    s.quads.push_back({left(b), left(a), left(d), left(c)});
-  };
-  across(0, 5);
-  both(0, 1, 5, 4);
-  both(1, 2, 4, 3);
-  for (int row = 5; row < 10; ++row) across(row, row + 1);
-  across(10, 13);
-  both(10, 11, 13, 12);
-  s.head_half_width = half_60e1[13][0] * 1e-3;
-  s.head_height = half_60e1[13][1] * 1e-3;
-  s.foot_half_width = half_60e1[2][0] * 1e-3;
+  RailSection s = block_section(half_60e1());
   // UIC60 of the rail database of rolland (Mantel, public code).
   s.torsion_constant = 2.212e-6, s.shear_vertical = 0.393, s.shear_lateral = 0.538;
   return s;
+}
+
+RailSection with_shear_constants(RailSection section) {
+  const ShearConstants constants = shear_constants(section);
+  section.torsion_constant = constants.torsion_constant;
+  section.shear_vertical = constants.vertical, section.shear_lateral = constants.lateral;
+  return section;
+}
+
+// The 60E1's corners brought to the drawing's sizes: foot, web and head are stretched each by itself.
+HalfCorners scaled_60e1(const Sizes& to) {
+  const Sizes& from = sizes_60e1;
+  const double web_from = from.height - from.head_depth - from.foot_depth;
+  const double web_to = to.height - to.head_depth - to.foot_depth;
+  HalfCorners corners = half_60e1();
+  for (int k = 0; k < n_half_corners; ++k) {
+    auto& p = corners[k];
+    const double z = p[1] * 1e3;
+    if (z <= from.foot_depth)
+      p[1] = z / from.foot_depth * to.foot_depth;
+    else if (z < from.height - from.head_depth)
+      p[1] = to.foot_depth + (z - from.foot_depth) / web_from * web_to;
+    else
+      p[1] = to.height - (from.height - z) / from.head_depth * to.head_depth;
+    p[1] *= 1e-3;
+    p[0] *= k <= 5 ? to.foot_width / from.foot_width : k <= 9 ? to.web / from.web : to.head_width / from.head_width;
+  }
+  return corners;
+}
+
+// The rest of the drawing (slopes, radii) was not to be had: the blocks keep the table's figures instead.
+RailSection section_of(const Standard& standard) {
+  const SectionTarget target{standard.area * 1e-4, 0.0, standard.inertia_vertical * 1e-8,
+                             standard.inertia_lateral * 1e-8};
+  constexpr double limit = 4e-3;  // [m]
+  return with_shear_constants(block_section(fit_corners(scaled_60e1(standard.sizes), target, limit, standard.name)));
 }
 
 Eigen::Vector4d bilinear(const Eigen::Vector2d& l) {
@@ -73,30 +122,40 @@ RailSection::Place RailSection::locate(const Eigen::Vector2d& point) const {
 }
 
 SectionProperties RailSection::properties() const {
-  double area = 0, first = 0, second_z = 0, second_y = 0;
+  SectionSums sums;
   for (const auto& quad : quads) {
     const int ring[4] = {quad[0], quad[1], quad[3], quad[2]};
-    for (int k = 0; k < 4; ++k) {
-      const auto &a = vertices[ring[k]], &b = vertices[ring[(k + 1) % 4]];
-      const double cross = a[0] * b[1] - a[1] * b[0];
-      area += cross / 2;
-      first += cross * (a[1] + b[1]) / 6;
-      second_z += cross * (a[1] * a[1] + a[1] * b[1] + b[1] * b[1]) / 12;
-      second_y += cross * (a[0] * a[0] + a[0] * b[0] + b[0] * b[0]) / 12;
-    }
+    for (int k = 0; k < 4; ++k) sums.add_edge(vertices[ring[k]], vertices[ring[(k + 1) % 4]]);
   }
-  return {area, first / area, second_z - first * first / area, second_y};
+  return sums.properties();
 }
 
 std::vector<std::string> rail_section_names() {
-  return {"60E1"};
+  std::vector<std::string> names;
+  for (const auto& standard : standards) names.push_back(standard.name);
+  return names;
 }
 
 RailSection rail_section(const std::string& name) {
-  if (name == "60E1") return section_60e1();
+  for (const auto& standard : standards)
+    if (name == standard.name) return name == "60E1" ? section_60e1() : section_of(standard);
   const std::string nearest = proto::nearest_name(name, rail_section_names());
   throw proto::Error(proto::ExitCode::config, "unknown rail profile '" + name + "'", "fem.profile",
-                     nearest.empty() ? "choose 60E1" : "did you mean '" + nearest + "'?");
+                     nearest.empty() ? "choose 60E1, JIS60 or JIS50N" : "did you mean '" + nearest + "'?");
+}
+
+RailSection rail_section_from_file(const std::string& path) {
+  constexpr double limit = 6e-3;  // rounded corners stand further off than fitted ones [m]
+  const RailOutline outline = read_rail_outline(path);
+  return with_shear_constants(block_section(fit_corners(corners_of(outline, path), outline.properties(), limit, path)));
+}
+
+std::optional<StandardFigures> standard_figures(const std::string& name) {
+  for (const auto& standard : standards)
+    if (name == standard.name)
+      return StandardFigures{standard.source, standard.area * 1e-4, standard.inertia_vertical * 1e-8,
+                             standard.inertia_lateral * 1e-8, standard.mass};
+  return std::nullopt;
 }
 
 }  // namespace fem

@@ -3,18 +3,13 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
-namespace fem {
+#include "fem_solver/model/rail_outline.hpp"
 
-/// Figures of a cross-section about its centroid.
-struct SectionProperties {
-  double area = 0.0;              ///< [m2]
-  double centroid_height = 0.0;   ///< above the foot's bottom face [m]
-  double inertia_vertical = 0.0;  ///< second moment for bending in the vertical plane [m4]
-  double inertia_lateral = 0.0;   ///< second moment for bending in the horizontal plane [m4]
-};
+namespace fem {
 
 /// Cross-section in its own frame: y lateral from the plane of symmetry, z up from the foot's bottom face [m].
 struct RailSection {
@@ -40,10 +35,26 @@ struct RailSection {
   SectionProperties properties() const;
 };
 
-/// The profile called `name` ("60E1"). Throws proto::Error (config) for an unknown name, with the nearest one.
+/// The profile called `name`: "60E1", "JIS60" or "JIS50N". Throws proto::Error (config) for an unknown name, with the
+/// nearest one.
 RailSection rail_section(const std::string& name);
 
 /// Names that rail_section() accepts.
 std::vector<std::string> rail_section_names();
+
+/// Blocks with area, centroid and second moments of the outline in a file; see read_rail_outline(), corners_of() and
+/// fit_corners() for what they refuse. Torsion constant and shear coefficients come from shear_constants().
+RailSection rail_section_from_file(const std::string& path);
+
+/// What a standard's table says of a shipped profile.
+struct StandardFigures {
+  std::string source;
+  double area;              ///< [m2]
+  double inertia_vertical;  ///< [m4]
+  double inertia_lateral;   ///< [m4]
+  double mass;              ///< [kg/m]
+};
+/// Empty for a name that rail_section() does not know.
+std::optional<StandardFigures> standard_figures(const std::string& name);
 
 }  // namespace fem

@@ -109,8 +109,8 @@ void FemRecord::window(const WheelTrack& track) {
   file_->put_history("time", static_cast<double>(state.windows) * window_s_);
   file_->put_history("wheel/position", state.wheel_position);
   file_->put_history("wheel/contact_force", state.last.contact);
-  file_->put_history("wheel/displacement", state.wheel_displacement);
-  file_->put_history("wheel/velocity", state.wheel_velocity);
+  file_->put_history("wheel/displacement", state.wheel.hub());
+  file_->put_history("wheel/velocity", state.wheel.hub_velocity());
   if (patch_) put_patch(track);
   file_->end_history_row();
   ++n_history_rows_;
@@ -147,8 +147,8 @@ void exchange(proto::StateArchive& archive, RunState& state) {
   archive("track/displacement", state.track.displacement);
   archive("track/velocity", state.track.velocity);
   archive("track/elastic", state.track.elastic);
-  archive("wheel/displacement", state.wheel_displacement);
-  archive("wheel/velocity", state.wheel_velocity);
+  archive("wheel/displacement", state.wheel.displacement);
+  archive("wheel/velocity", state.wheel.velocity);
   archive("wheel/position", state.wheel_position);
   archive("windows", state.windows);
   archive("interface/force", state.last.force);

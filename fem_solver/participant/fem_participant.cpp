@@ -52,11 +52,13 @@ std::vector<proto::Fact> model_facts(const RailModel& rail, const FemSettings& s
           fact("fem.seat_mass_kg", section.area * settings.material.density * settings.sleeper_spacing)};
 }
 
-FemParticipant::FemParticipant(FemCase input, std::string program, std::string name, const RailBuilder& build)
+FemParticipant::FemParticipant(FemCase input, std::string program, std::string name, const RailBuilder& build,
+                               WheelBuilder build_wheel)
     : input_(std::move(input)),
       program_(std::move(program)),
       name_(std::move(name)),
-      rail_(build(input_.fem, input_.seats, SeatOwner::partner)) {}
+      rail_(build(input_.fem, input_.seats, SeatOwner::partner)),
+      build_wheel_(std::move(build_wheel)) {}
 
 std::string FemParticipant::build_id() const {
   return program_ + " " + proto::project_version();
@@ -97,7 +99,8 @@ proto::Configured FemParticipant::configure(const proto::Configure& request) {
   for (std::size_t i = 0; i < n; ++i)
     laws.push_back({request.stiffness[i], request.damping[i], request.preload[i], request.tension_cutoff[i]});
   mode_ = request.mode;
-  track_ = std::make_unique<WheelTrack>(*rail_, input_.fem, input_.wheel, request.window_s, std::move(laws));
+  track_ = std::make_unique<WheelTrack>(*rail_, input_.fem, input_.wheel, build_wheel_(input_.wheel), request.window_s,
+                                        std::move(laws));
   bump();
   track_->band().at(track_->position_at(static_cast<double>(request.windows)));
   output_directory_ = request.output_directory;
@@ -155,7 +158,7 @@ void FemParticipant::commit(const proto::Commit&) {
   if (phase_ != proto::Phase::march) return;
   largest_contact_ = std::max(largest_contact_, track_->contact_force());
   smallest_contact_ = std::min(smallest_contact_, track_->contact_force());
-  lowest_wheel_ = std::min(lowest_wheel_, committed_.wheel_displacement);
+  lowest_wheel_ = std::min(lowest_wheel_, committed_.wheel.hub());
   record_->window(*track_);
 }
 
@@ -183,6 +186,7 @@ proto::FieldSet FemParticipant::start() {
 
 void FemParticipant::exchange(proto::StateArchive& archive) {
   archive.expect_same("model", "the rail", std::to_string(rail_->track().n_dofs()) + " unknowns");
+  archive.expect_same("wheel_model", "the wheel", std::to_string(track_->wheel_model().n_dofs()) + " unknowns");
   fem::exchange(archive, committed_);
   archive("force_used", force_used_);
   archive("largest_contact", largest_contact_);

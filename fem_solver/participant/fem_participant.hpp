@@ -34,7 +34,8 @@ std::vector<proto::Fact> model_facts(const RailModel& rail, const FemSettings& s
 class FemParticipant : public proto::Participant {
  public:
   /// `program`: name of the executable; `name`: in the session. Throws what `build` throws.
-  FemParticipant(FemCase input, std::string program, std::string name, const RailBuilder& build);
+  FemParticipant(FemCase input, std::string program, std::string name, const RailBuilder& build,
+                 WheelBuilder build_wheel = mass_wheel);
 
   void watch(proto::Progress& progress) override { progress_ = &progress; }
   std::string build_id() const override;
@@ -65,6 +66,7 @@ class FemParticipant : public proto::Participant {
   std::string program_, name_;
   proto::Progress* progress_ = nullptr;
   std::unique_ptr<RailModel> rail_;
+  WheelBuilder build_wheel_;
   proto::LoadMode mode_ = proto::LoadMode::robin;
   std::unique_ptr<WheelTrack> track_;
   std::unique_ptr<FemRecord> record_;

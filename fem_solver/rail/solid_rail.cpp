@@ -74,7 +74,7 @@ std::vector<RailField> SolidRail::fields() const {
            [this](V u, V) { return at_nodes(corner_nodes_, u); }},
           {"velocity", "m/s", "of the rail", true, 3, [this](V, V v) { return at_nodes(corner_nodes_, v); }},
           {"von_mises_stress", "Pa", "von Mises stress at the centre of the element", false, 1,
-           [this](V u, V) { return system_.mesh->von_mises(u, material_); }}};
+           [this](V u, V) { return system_.mesh->solid().von_mises(u, material_); }}};
 }
 
 std::unique_ptr<RailModel> build_solid_rail(const FemSettings& settings, const std::vector<proto::RailSeat>& seats,

@@ -28,8 +28,7 @@ Evaluation evaluate(const InterfaceProblem& p, const Eigen::VectorXd& unknowns) 
   for (int i = 0; i < n; ++i) {
     const double gap = p.gap_0[i] + p.time_factor * w[i], rate = p.rate_factor * (w[i] - p.sleeper_velocity[i]);
     e.residual[i] = unknowns[i] - p.laws[i].force(gap, rate);
-    e.tangent[i] =
-        p.laws[i].engaged(gap, rate) ? p.laws[i].stiffness * p.time_factor + p.laws[i].damping * p.rate_factor : 0.0;
+    e.tangent[i] = p.laws[i].tangent(gap, rate, p.time_factor, p.rate_factor);
   }
   if (!p.contact_law) {
     e.residual[n] = contact - p.given_contact;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fem_solver/contact/wheel_contact.hpp"
-#include "proto/pad/pad_law.hpp"
+#include "fem_solver/model/interface_law.hpp"
 
 namespace fem {
 
@@ -17,7 +17,7 @@ namespace fem {
 ///
 /// `gap_0` and `approach_0` hold what does not depend on this window's unknowns.
 struct InterfaceProblem {
-  std::vector<proto::PadLaw> laws;
+  std::vector<InterfaceLaw> laws;
   Eigen::VectorXd gap_0;             ///< [m]
   Eigen::VectorXd free_velocity;     ///< [m/s], zero in statics
   Eigen::VectorXd sleeper_velocity;  ///< [m/s]

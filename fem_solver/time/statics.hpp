@@ -13,7 +13,7 @@ namespace fem {
 
 struct StaticState {
   Eigen::VectorXd displacement;  ///< all degrees of freedom [m]
-  Eigen::VectorXd pad_force;     ///< on the sleepers at the coupled cells [N]
+  Eigen::VectorXd pad_force;     ///< on the sleepers: coupled cells, then TrackSystem::support_laws [N]
 };
 
 /// Static solutions on one factorisation of K_r + K_s; everything is computed in the constructor but the superposition.
@@ -33,7 +33,7 @@ class Statics {
   const TrackSystem& system_;
   const RunningBand& band_;
   Cholesky factor_;
-  Eigen::MatrixXd cell_columns_;  // K^-1 Phi'
+  Eigen::MatrixXd interface_columns_;  // K^-1 Phi'
 };
 
 }  // namespace fem

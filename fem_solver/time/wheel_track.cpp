@@ -9,15 +9,17 @@ namespace fem {
 
 WheelTrack::Stepper::Stepper(const TrackSystem& system, double step, double mass_damping)
     : newmark(system, step, mass_damping) {
-  if (system.cells.rows() == 0) return;
-  cell_columns = newmark.factor().solve_columns(Eigen::MatrixXd(system.cells.transpose()));
-  compliance = system.cells * cell_columns;
+  if (system.interface.rows() == 0) return;
+  interface_columns = newmark.factor().solve_columns(Eigen::MatrixXd(system.interface.transpose()));
+  compliance = system.interface * interface_columns;
 }
 
-WheelTrack::WheelTrack(const RailModel& rail, const FemSettings& fem, const WheelSettings& wheel, double step,
-                       std::vector<proto::PadLaw> laws)
+WheelTrack::WheelTrack(const RailModel& rail, const FemSettings& fem, const WheelSettings& wheel, WheelModel model,
+                       double step, std::vector<proto::PadLaw> laws)
     : system_(rail.track()),
       wheel_(wheel),
+      wheel_model_(std::move(model)),
+      wheel_stepper_(wheel_model_, step),
       step_(step),
       initialise_damping_(fem.initialise_damping),
       laws_(std::move(laws)),
@@ -46,8 +48,9 @@ void WheelTrack::set_rest(const Eigen::VectorXd& displacement) {
   const double rail = band_.read(place, displacement) + excess_flexibility(place) * wheel_.static_load;
   double approach = 0.0;
   state_.patch = contact_->at_rest(wheel_.start, approach);
-  state_.wheel_displacement = rail + wheel_.irregularity.height_at(wheel_.start) - approach;
-  state_.wheel_velocity = 0.0;
+  const double wheel =
+      rail + wheel_.height_at(wheel_.start) - approach + wheel_model_.local_flexibility * wheel_.static_load;
+  state_.wheel = wheel_at_rest(wheel_model_, wheel);
 }
 
 WindowOutput WheelTrack::relax(const WindowInput& input, double step) {
@@ -60,6 +63,7 @@ WindowOutput WheelTrack::relax(const WindowInput& input, double step) {
 
 double WheelTrack::static_residual(const TrackState& before, const Eigen::VectorXd& force_used) const {
   Eigen::VectorXd load = system_.weight - system_.cells.transpose() * force_used;
+  load -= system_.support_pads().transpose() * state_.last.force.tail(system_.support_laws.size());
   band_.add_load(band_.at(wheel_.start), -wheel_.static_load, load);
   return (load - (before.elastic + state_.track.elastic) / 2).lpNorm<1>() / load.lpNorm<1>();
 }
@@ -91,15 +95,15 @@ Eigen::VectorXd WheelTrack::contact_response(Stepper& stepper, const BandWeights
   return response;
 }
 
-// The wheel's own window equation 2 m (v_m - v0)/H = F - P makes its mean displacement affine in F.
+// The wheel's own window equation makes its mean displacement affine in F.
 void WheelTrack::add_wheel(InterfaceProblem& problem, const BandWeights& place, double position,
                            const Eigen::VectorXd& response, const Eigen::VectorXd& free) const {
-  const double half = step_ / 2, per_force = half / wheel_.unsprung_mass;
-  const double wheel_free = state_.wheel_displacement + half * (state_.wheel_velocity - per_force * wheel_.static_load);
+  const double half = step_ / 2;
   const double rail_free = band_.read(place, state_.track.displacement) + half * band_.read(place, free);
   problem.contact_law = contact_->law(position, state_.patch);
-  problem.approach_0 = rail_free + wheel_.irregularity.height_at(position) - wheel_free;
-  problem.contact_slope = half * (band_.read(place, response) + per_force) - excess_flexibility(place);
+  problem.approach_0 = rail_free + wheel_.height_at(position) - wheel_stepper_.free_displacement(state_.wheel);
+  problem.contact_slope = half * (band_.read(place, response) + wheel_stepper_.response()) - excess_flexibility(place) -
+                          wheel_model_.local_flexibility;
 }
 
 WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Wheel wheel) {
@@ -114,17 +118,23 @@ WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Whe
   Eigen::VectorXd velocity = stepper.newmark.response(right_side);
 
   InterfaceProblem p;
-  if (!input.prescribed) p.laws = laws_;
+  if (!input.prescribed) p.laws = interface_laws_of(laws_);
+  const auto n_coupled = static_cast<Eigen::Index>(p.laws.size());
+  p.laws.insert(p.laws.end(), system_.support_laws.begin(), system_.support_laws.end());
   const auto n = static_cast<Eigen::Index>(p.laws.size());
+  const auto rows = system_.interface.bottomRows(n);
   p.time_factor = stepper.newmark.step() / 2;
   p.carry = p.gap_0 = p.free_velocity = p.sleeper_velocity = p.contact_column = Eigen::VectorXd::Zero(n);
   if (n > 0) {
-    p.carry = input.carry;
-    p.gap_0 = cell_displacement() - input.sleeper_displacement;
-    p.free_velocity = system_.cells * velocity;
-    p.sleeper_velocity = input.sleeper_velocity;
-    p.compliance = stepper.compliance;
-    p.contact_column = system_.cells * response;
+    p.gap_0 = rows * state_.track.displacement;
+    p.free_velocity = rows * velocity;
+    p.compliance = stepper.compliance.bottomRightCorner(n, n);
+    p.contact_column = rows * response;
+  }
+  if (n_coupled > 0) {
+    p.carry.head(n_coupled) = input.carry;
+    p.gap_0.head(n_coupled) -= input.sleeper_displacement;
+    p.sleeper_velocity.head(n_coupled) = input.sleeper_velocity;
   }
   if (wheel == Wheel::rolling)
     add_wheel(p, place, position, response, velocity);
@@ -137,11 +147,12 @@ WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Whe
       "fem: window " + std::to_string(state_.windows) + ", wheel at x = " + std::to_string(position) + " m";
   const InterfaceSolution solution = solve_interface(p, guess, where.c_str());
 
-  WindowOutput output{solution.force, solution.force - p.carry};
+  const Eigen::VectorXd used = solution.force - p.carry;
+  WindowOutput output{solution.force.head(n_coupled), used.head(n_coupled)};
   if (input.prescribed) output.force_robin = output.force_used = *input.prescribed;
   if (n > 0) {
-    velocity -= stepper.cell_columns * output.force_used;
-    right_side -= system_.cells.transpose() * output.force_used;
+    velocity -= stepper.interface_columns.rightCols(n) * used;
+    right_side -= rows.transpose() * used;
   }
   velocity -= solution.contact * response;
   band_.add_load(place, -solution.contact, right_side);
@@ -149,10 +160,7 @@ WindowOutput WheelTrack::advance(Stepper& stepper, const WindowInput& input, Whe
 
   if (wheel == Wheel::rolling) {
     contact_->roll(position, solution.approach, state_.patch);
-    const double mean =
-        state_.wheel_velocity + step_ / (2 * wheel_.unsprung_mass) * (solution.contact - wheel_.static_load);
-    state_.wheel_displacement += step_ * mean;
-    state_.wheel_velocity = 2 * mean - state_.wheel_velocity;
+    wheel_stepper_.finish(state_.wheel, solution.contact);
   }
   state_.wheel_position = position;
   state_.last = solution;

@@ -15,6 +15,7 @@
 #include "fem_solver/time/interface_solve.hpp"
 #include "fem_solver/time/newmark.hpp"
 #include "fem_solver/time/statics.hpp"
+#include "fem_solver/wheel/wheel_model.hpp"
 
 namespace fem {
 
@@ -34,22 +35,27 @@ struct WindowOutput {
 /// Mutable part of the simulation.
 struct RunState {
   TrackState track;
-  double wheel_displacement = 0.0;  ///< from touching the undeformed rail without load, up [m]
-  double wheel_velocity = 0.0;      ///< [m/s]
-  std::int64_t windows = 0;         ///< since time 0
-  InterfaceSolution last;           ///< guess for the next window
-  PatchState patch;                 ///< of a resolved contact
-  std::int64_t windows_open = 0;    ///< for how many windows the wheel has been off the rail
-  double wheel_position = 0.0;      ///< x of the contact of the last window's middle, or the start [m]
+  WheelMotion wheel;              ///< from touching the undeformed rail without load, up
+  std::int64_t windows = 0;       ///< since time 0
+  InterfaceSolution last;         ///< guess for the next window
+  PatchState patch;               ///< of a resolved contact
+  std::int64_t windows_open = 0;  ///< for how many windows the wheel has been off the rail
+  double wheel_position = 0.0;    ///< x of the contact of the last window's middle, or the start [m]
 };
 
-/// An unsprung mass under a static load runs along the rail on its contact. Mass and rail share one window equation:
+/// A wheel under its static load runs along the rail on its contact. Wheel and rail share one window equation:
 /// average acceleration, contact evaluated at mid-window position and mean approach; it may open and does not stick.
 class WheelTrack {
  public:
   /// `rail` must outlive it. `laws`: one per coupled value. `step`: window H [s].
-  WheelTrack(const RailModel& rail, const FemSettings& fem, const WheelSettings& wheel, double step,
+  WheelTrack(const RailModel& rail, const FemSettings& fem, const WheelSettings& wheel, WheelModel model, double step,
              std::vector<proto::PadLaw> laws);
+  /// With mass_wheel().
+  WheelTrack(const RailModel& rail, const FemSettings& fem, const WheelSettings& wheel, double step,
+             std::vector<proto::PadLaw> laws)
+      : WheelTrack(rail, fem, wheel, mass_wheel(wheel), step, std::move(laws)) {}
+  WheelTrack(const WheelTrack&) = delete;
+  WheelTrack& operator=(const WheelTrack&) = delete;
 
   /// Sets the static state with the wheel at its start and the coupled sleepers held at `sleeper_displacement` [m].
   void rest(const Eigen::VectorXd& sleeper_displacement);
@@ -71,6 +77,7 @@ class WheelTrack {
 
   const RunState& state() const { return state_; }
   void set_state(const RunState& state) { state_ = state; }
+  const WheelModel& wheel_model() const { return wheel_model_; }
   double contact_force() const { return state_.last.contact; }
   double position_at(double window) const { return wheel_.start + wheel_.speed * step_ * window; }
   const Hertz& hertz() const { return hertz_; }
@@ -90,7 +97,7 @@ class WheelTrack {
   struct Stepper {
     Stepper(const TrackSystem& system, double step, double mass_damping);
     Newmark newmark;
-    Eigen::MatrixXd cell_columns;             // A^-1 Phi'
+    Eigen::MatrixXd interface_columns;        // A^-1 Phi'
     Eigen::MatrixXd compliance;               // Phi A^-1 Phi'
     std::map<int, Eigen::VectorXd> stations;  // A^-1 of the station loads around the wheel
   };
@@ -107,6 +114,8 @@ class WheelTrack {
 
   const TrackSystem& system_;
   WheelSettings wheel_;
+  WheelModel wheel_model_;
+  WheelStepper wheel_stepper_;
   double step_, initialise_damping_;
   std::vector<proto::PadLaw> laws_;
   const RunningBand& band_;

@@ -26,7 +26,7 @@ Eigen::VectorXd force(const fem::SparseMatrix& lower, const Eigen::VectorXd& u) 
 TEST(Elasticity, patch_test) {
   const auto mesh = short_rail();
   const fem::Material steel;
-  const auto k = mesh.stiffness(steel);
+  const auto k = mesh.solid().stiffness(steel);
   Eigen::Matrix3d gradient;
   gradient << 1e-4, 3e-5, -2e-5, 1e-5, -2e-4, 4e-5, 2.5e-5, -1e-5, 3e-4;
   const Eigen::VectorXd u = linear_field(mesh, gradient), f = force(k, u);
@@ -39,7 +39,7 @@ TEST(Elasticity, patch_test) {
   EXPECT_TRUE(near_rel(u.dot(f), volume * (stress.array() * strain.array()).sum(), 1e-11));
 
   const Eigen::Matrix3d deviator = stress - stress.trace() / 3 * Eigen::Matrix3d::Identity();
-  for (const double s : mesh.von_mises(u, steel)) EXPECT_TRUE(near_rel(s, std::sqrt(1.5) * deviator.norm(), 1e-10));
+  for (const double s : mesh.solid().von_mises(u, steel)) EXPECT_TRUE(near_rel(s, std::sqrt(1.5) * deviator.norm(), 1e-10));
 
   // An inner node: middle of the foot's centre block on the plane x = 0.25.
   const auto inner = mesh.interpolation({0.25, 0.7, 0.01195});
@@ -49,7 +49,7 @@ TEST(Elasticity, patch_test) {
 
 TEST(Elasticity, rigid_motions_are_free_of_force) {
   const auto mesh = short_rail();
-  const auto k = mesh.stiffness({});
+  const auto k = mesh.solid().stiffness({});
   Eigen::Matrix3d spin;
   spin << 0, -3, 2, 3, 0, -1, -2, 1, 0;
   const double scale = force(k, linear_field(mesh, Eigen::Matrix3d::Identity())).norm();
@@ -59,7 +59,7 @@ TEST(Elasticity, rigid_motions_are_free_of_force) {
 
 TEST(Elasticity, lumped_volumes_are_positive_and_complete) {
   const auto mesh = short_rail();
-  const Eigen::VectorXd volumes = mesh.node_volumes();
+  const Eigen::VectorXd volumes = mesh.solid().node_volumes();
   const double area = mesh.section().properties().area;
   EXPECT_GT(volumes.minCoeff(), 0.0);
   EXPECT_TRUE(near_rel(volumes.sum(), 0.4 * area, 1e-12));

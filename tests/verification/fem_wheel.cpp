@@ -95,9 +95,9 @@ TEST_P(Approach, hertz_plus_beam_within_2_percent) {
   const double deflection = beam.deflection(wheel.start, 80e3)[beam.node(wheel.start)];
   std::printf(
       "x = %.2f m: wheel descends %.4f mm; Hertz 0.0908 mm + beam %.4f mm (%+.2f %%); local indentation %.3g m/N\n",
-      wheel.start, -track.state().wheel_displacement * 1e3, deflection * 1e3,
-      (-track.state().wheel_displacement / (90.8e-6 + deflection) - 1) * 100, track.indentation());
-  EXPECT_TRUE(near_rel(-track.state().wheel_displacement, 90.8e-6 + deflection, 0.02));
+      wheel.start, -track.state().wheel.hub() * 1e3, deflection * 1e3,
+      (-track.state().wheel.hub() / (90.8e-6 + deflection) - 1) * 100, track.indentation());
+  EXPECT_TRUE(near_rel(-track.state().wheel.hub(), 90.8e-6 + deflection, 0.02));
 }
 INSTANTIATE_TEST_SUITE_P(seat_and_mid_bay, Approach,
                          ::testing::Values(Standing{0.0, 0.1}, Standing{0.3, 0.1}, Standing{0.0, 0.3}));
@@ -122,7 +122,7 @@ TEST(Contact, opens_over_a_deep_dip_and_closes_again) {
   }
   EXPECT_EQ(lowest, 0.0);
   EXPECT_GT(after_opening, wheel.static_load);
-  EXPECT_TRUE(near_abs(track.state().wheel_velocity * wheel.unsprung_mass, impulse, 1e-9 * wheel.static_load));
+  EXPECT_TRUE(near_abs(track.state().wheel.hub_velocity() * wheel.unsprung_mass, impulse, 1e-9 * wheel.static_load));
 }
 
 TEST(Start, a_standing_wheel_stays_at_rest) {
@@ -132,12 +132,12 @@ TEST(Start, a_standing_wheel_stays_at_rest) {
   fem::WheelSettings wheel;
   wheel.start = -0.47, wheel.speed = 0.0;
   fem::WheelTrack track(rail, settings, wheel, 5e-5, {});
-  const double begin = track.state().wheel_displacement;
+  const double begin = track.state().wheel.hub();
   for (int n = 0; n < 200; ++n) {
     track.march({});
     ASSERT_TRUE(near_rel(track.contact_force(), wheel.static_load, 1e-6));
   }
-  EXPECT_TRUE(near_rel(track.state().wheel_displacement, begin, 1e-6));
+  EXPECT_TRUE(near_rel(track.state().wheel.hub(), begin, 1e-6));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST_P(Window, equals_the_monolithic_implicit_solve) {
   EXPECT_TRUE(near_abs((output.force_robin - output.force_used - input.carry).norm(), 0.0, 1e-9));
 
   // The contact force is Hertz's of the monolithic solution's mean approach.
-  const double wheel_mean = (before.wheel_displacement + after.wheel_displacement) / 2;
+  const double wheel_mean = (before.wheel.hub() + after.wheel.hub()) / 2;
   const double rail_mean = track.band().read(place, (before.track.displacement + u) / 2) +
                            (track.indentation() - place.missing_flexibility) * track.contact_force();
   EXPECT_TRUE(
