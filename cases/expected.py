@@ -21,7 +21,7 @@
     published = "..."            # what others report, for the table of findings; may be left out
 
 Instead of `table`, `figure = "..."` takes a figure that the analysis prints (with `group = "..."` where several groups
-have one), `summary = "bed.porosity"` a number of summary.json. `[[ratio]]` has the same keys, and `of` and
+have one), `summary = "rail_seats.0.max_force_n"` a number of summary.json. `[[ratio]]` has the same keys, and `of` and
 `over`, names of two runs: the quantity of the one over that of the other.
 """
 
@@ -118,6 +118,12 @@ def read_expectation(table: dict, path: Path, runs: tuple[str, str] | None = Non
     return Expectation(table["quantity"], place, low, high, table["source"], table.get("published", ""), runs)
 
 
+def read_ratio(table: dict, path: Path) -> Expectation:
+    if not {"of", "over"} <= table.keys():
+        raise ExpectedError(f"'of' or 'over' is missing - {path}: '{table.get('quantity', '')}'")
+    return read_expectation(table, path, (table["of"], table["over"]))
+
+
 def read_expected(folder: Path) -> tuple[list[CaseRun], list[Expectation]]:
     """Runs of the case in `folder`, and the expected ratios between them."""
     path = folder / "expected.toml"
@@ -133,8 +139,7 @@ def read_expected(folder: Path) -> tuple[list[CaseRun], list[Expectation]]:
         refuse_unknown(table, OF_RUN, f"{path}: run '{table.get('name', '')}'")
         values = [read_expectation(value, path) for value in table.get("expected", [])]
         runs.append(CaseRun(**{**table, "expected": values}))
-    ratios = [read_expectation(table, path, (table["of"], table["over"])) for table in text.get("ratio", [])]
-    return runs, ratios
+    return runs, [read_ratio(table, path) for table in text.get("ratio", [])]
 
 
 def read_columns(path: Path) -> dict[str, list[float]]:
@@ -189,7 +194,7 @@ def value_of(where: dict, folder: Path) -> float:
         return value_of_figure(where, folder / "analysis" / "figures.csv")
     value = json.loads((folder / "summary.json").read_text())
     for key in where["summary"].split("."):
-        value = value[key]
+        value = value[int(key) if isinstance(value, list) else key]
     return float(value)
 
 

@@ -98,7 +98,9 @@ def study(options: argparse.Namespace, out: Path) -> int:
         say_where([out / run.name for run in runs], options.programs)
     judgements = judge(runs, ratios, out)
     if judgements:
-        print(f"\n{folder.name}: expected values\n{table_of(judgements)}")
+        found = f"\n{folder.name}: expected values\n{table_of(judgements)}"
+        print(found)
+        (out / "findings.txt").write_text(found + "\n")
     return 0 if all(j.holds for j in judgements) else 1
 
 

@@ -12,9 +12,11 @@ function(case_test name)
                        ENVIRONMENT "OMP_NUM_THREADS=1;QDEM_BED_CACHE=${PROJECT_BINARY_DIR}/test_beds")
 endfunction()
 if(TARGET coupler AND TARGET qdem_solver AND TARGET fem_solver)
+  case_test(split_oscillator)
   case_test(stone_impulse)
   case_test(sleeper_impulse)
   case_test(drop_weight TIMEOUT 1500)
-  set_tests_properties(case_drop_weight PROPERTIES DEPENDS wheel_passage_test)  # which builds the bed that both use
+  case_test(qdem_vs_dem TIMEOUT 1500)
+  set_tests_properties(case_drop_weight case_qdem_vs_dem PROPERTIES DEPENDS wheel_passage_test)  # it builds the bed they use
   contract_test(expected_values bash ${contract}/expected_values.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE_DIR:coupler>)
 endif()

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "proto/error.hpp"
+#include "qdem_solver/bed/drawn_stones.hpp"
 #include "qdem_solver/engine/engine.hpp"
 #include "qdem_solver/engine/relaxation.hpp"
 
@@ -83,12 +84,13 @@ Bed lone_sleeper(const Settings& settings, const BedPhysics& physics) {
 Bed lone_stone(const Settings& settings, const BedPhysics& physics) {
   Bed bed;
   bed.model = sleeper_alone(settings, physics, 7u);
-  StoneTemplates stones = make_stone_templates(settings.shapes);
-  const Template& shape = bed.model.templates.emplace_back(std::move(stones.templates.front()));
-  bed.report.notes = std::move(stones.notes);
+  Random random(settings.seed, 1);
+  DrawnStones drawn = draw_bed(settings, physics.contact.rounding, random);
+  const Template& shape = bed.model.templates.emplace_back(std::move(drawn.templates.front()));
+  bed.report.notes = std::move(drawn.notes);
   Body stone;
-  stone.name = "stone_1", stone.template_id = 1, stone.material_id = settings.mixture.front().material_id;
-  stone.scale = settings.gradation.size_at(0.5) - 2 * physics.contact.rounding;
+  stone.name = "stone_1", stone.template_id = 1, stone.material_id = drawn.layer.front().material_id;
+  stone.scale = drawn.layer.front().size - 2 * physics.contact.rounding;
   bed.model.bodies.push_back(stone);
   const double ground = settings.ground_level();
   bed.model.planes.push_back({"ground",
@@ -110,8 +112,7 @@ Bed lone_stone(const Settings& settings, const BedPhysics& physics) {
   under_seat.translation =
       Vector3d(seat[0], seat[1], ground + height) - stone.scale * (under_seat.rotation * centre_of(shape));
   bed.state = make_state(bed.model, {Placement{}, under_seat});
-  bed.report.stones = 1, bed.report.d50 = settings.gradation.size_at(0.5),
-  bed.report.elements_per_stone = shape.n_tets();
+  bed.report.stones = 1, bed.report.d50 = drawn.layer.front().size, bed.report.elements_per_stone = shape.n_tets();
   if (lies) come_to_rest(settings, bed);
   return bed;
 }
