@@ -17,7 +17,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from expected import CaseRun, ExpectedError, judge, read_expected, table_of
+sys.dont_write_bytecode = True  # a folder here is a case
+from expected import CaseRun, ExpectedError, judge, read_expected, table_of  # noqa: E402
 
 
 def changed_case(text: str, changes: dict) -> str:
