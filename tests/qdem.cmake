@@ -19,6 +19,7 @@ house_test(qdem_incline verification SOURCES verification/qdem_incline.cpp LIBRA
 house_test(qdem_relaxation verification SOURCES verification/qdem_relaxation.cpp LIBRARIES qdem::engine)
 # Threads that wait by spinning stand in each other's way where other tests run at the same time.
 set_tests_properties(qdem_engine_whole PROPERTIES ENVIRONMENT "OMP_NUM_THREADS=1;OMP_WAIT_POLICY=passive")
+house_test(impulse_cases verification SOURCES verification/impulse_cases.cpp LIBRARIES qdem::participant qdem::bed)
 house_test(qdem_sensors_test unit SOURCES unit/qdem_sensors.cpp LIBRARIES qdem::participant)
 house_test(qdem_case unit SOURCES unit/qdem_case.cpp LIBRARIES qdem::participant)
 house_test(qdem_participant_whole integration SOURCES integration/qdem_participant.cpp

@@ -12,6 +12,7 @@
 
 #include "proto/error.hpp"
 #include "qdem_solver/bed/builder.hpp"
+#include "qdem_solver/bed/lone_body.hpp"
 #include "qdem_solver/bed/settings.hpp"
 #include "qdem_solver/engine/stability.hpp"
 #include "qdem_solver/output/bed_file.hpp"
@@ -109,6 +110,10 @@ void add_physics(InputHash& hash, const BedPhysics& p) {
   hash.add(static_cast<double>(p.stone.interaction)), hash.add(static_cast<double>(p.sleeper.interaction));
 }
 
+bool is_poured_otherwise(const bed::Settings& settings, const BedPhysics& physics) {
+  return settings.poured_with && *settings.poured_with != physics.stone.interaction;
+}
+
 /// Rigid ones add nothing.
 void add_bearings(InputHash& hash, const BedPhysics& p) {
   if (p.lining.is_rigid() && p.ground.is_rigid()) return;
@@ -162,6 +167,18 @@ void add_subgrade(InputHash& hash, const std::optional<SubgradeLayer>& layer) {
   }
 }
 
+/// A bed that the law of the run has built adds nothing.
+void add_pouring_law(InputHash& hash, const bed::Settings& s, const BedPhysics& p) {
+  if (!is_poured_otherwise(s, p)) return;
+  hash.add(std::string("poured with"));
+  hash.add(static_cast<double>(*s.poured_with));
+}
+
+/// A bed of ballast adds nothing.
+void add_scene(InputHash& hash, bed::Scene scene) {
+  if (scene != bed::Scene::ballast) hash.add(static_cast<double>(scene));
+}
+
 std::string hash_of(const bed::Settings& settings, const BedPhysics& physics) {
   InputHash hash;
   add_settings(hash, settings);
@@ -170,6 +187,8 @@ std::string hash_of(const bed::Settings& settings, const BedPhysics& physics) {
   add_mixture(hash, settings.mixture, physics);
   add_bearings(hash, physics);
   add_subgrade(hash, physics.subgrade);
+  add_pouring_law(hash, settings, physics);
+  add_scene(hash, settings.scene);
   return hash.hex();
 }
 
@@ -186,25 +205,26 @@ bed::Settings checked_settings(const proto::CaseFile& file, const BedPhysics& ph
   return settings;
 }
 
-Bed build_bed(const proto::CaseFile& file, const bed::Settings& settings, const BedPhysics& physics,
-              const std::string& cache_folder) {
+Bed cached_bed(const bed::Settings& settings, const BedPhysics& physics, const std::filesystem::path& folder);
+
+/// A bed on a subgrade of elements comes from that on rigid ground, one for another law from that which it is poured
+/// with.
+Bed built_bed(const bed::Settings& settings, const BedPhysics& physics, const std::filesystem::path& folder) {
   bed::Builder builder(settings, physics);
-  if (!physics.subgrade) return builder.build();
-  BedPhysics on_rigid_ground = physics;
-  on_rigid_ground.subgrade.reset();
-  return builder.lay_on_subgrade(make_bed(file, on_rigid_ground, cache_folder));
+  BedPhysics before = physics;
+  if (physics.subgrade) {
+    before.subgrade.reset();
+    return builder.lay_on_subgrade(cached_bed(settings, before, folder));
+  }
+  if (!is_poured_otherwise(settings, physics)) return builder.build();
+  before.stone.interaction = before.sleeper.interaction = *settings.poured_with;
+  for (Material& material : before.others) material.interaction = *settings.poured_with;
+  return builder.rest_anew(cached_bed(settings, before, folder));
 }
 
-}  // namespace
-
-std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics) {
-  return hash_of(checked_settings(file, physics), physics);
-}
-
-Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::string& cache_folder) {
-  const bed::Settings settings = checked_settings(file, physics);
+/// From `folder`, or built and stored there.
+Bed cached_bed(const bed::Settings& settings, const BedPhysics& physics, const std::filesystem::path& folder) {
   const std::string hash = hash_of(settings, physics);
-  const auto folder = cache_of(cache_folder);
   const auto path = folder / (hash + ".h5");
   if (std::filesystem::exists(path)) {
     Bed bed = read_bed_file(path.string(), physics);
@@ -218,10 +238,24 @@ Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::
     throw proto::Error(proto::ExitCode::cannot_create, "the bed cache cannot be made: " + error.message(),
                        folder.string(), "set QDEM_BED_CACHE to a folder you can write");
   }
-  Bed bed = build_bed(file, settings, physics, cache_folder);
+  Bed bed = built_bed(settings, physics, folder);
   bed.report.hash = hash;
   write_bed_file(path.string(), bed);
   spdlog::info("bed: stored as {}", path.string());
+  return bed;
+}
+
+}  // namespace
+
+std::string bed_hash(const proto::CaseFile& file, const BedPhysics& physics) {
+  return hash_of(checked_settings(file, physics), physics);
+}
+
+Bed make_bed(const proto::CaseFile& file, const BedPhysics& physics, const std::string& cache_folder) {
+  const bed::Settings settings = checked_settings(file, physics);
+  if (settings.scene == bed::Scene::ballast) return cached_bed(settings, physics, cache_of(cache_folder));
+  Bed bed = bed::lone_body(settings, physics);
+  bed.report.hash = hash_of(settings, physics);
   return bed;
 }
 

@@ -69,8 +69,9 @@ struct Bed {
 };
 
 /// Builds the bed of `file` ([bed], [track], [[rail_seat]]) or loads it from the cache when a bed with the same inputs
-/// is there. Same inputs give bitwise the same bed, built or loaded, with any number of threads. A bed on a subgrade of
-/// elements is first made on rigid ground, in the cache too, then laid on it and brought to rest anew.
+/// is there; a scene of one body ([bed] scene) is made anew every time. Same inputs give bitwise the same bed, built or
+/// loaded, with any number of threads. A bed on a subgrade of elements is first made on rigid ground, in the cache too,
+/// then laid on it and brought to rest anew.
 ///
 /// The cache is `cache_folder`, by default $QDEM_BED_CACHE, else $XDG_CACHE_HOME/qdem_fem/beds, else .cache/beds under
 /// the working folder. Throws proto::Error: config for bad keys; bad_data when the bed misses a limit of the case

@@ -45,14 +45,36 @@ Bed Builder::build() {
 
 Bed Builder::lay_on_subgrade(Bed base) {
   const auto start = std::chrono::steady_clock::now();
-  stage_ = "settling on the subgrade", falling_ = false;
+  stage_ = "settling on the subgrade";
+  take_over(std::move(base));
+  ground_ = lay_subgrade(model_, state_, *physics_.subgrade);
+  make_real();
+  run_steps(settings_.preload_steps, {});
+  return loaded_and_at_rest(start);
+}
+
+Bed Builder::rest_anew(Bed base) {
+  const auto start = std::chrono::steady_clock::now();
+  stage_ = "loading anew";
+  take_over(std::move(base));
+  make_real();
+  make_batches(model_);  // with the bonds that the other law may need
+  return loaded_and_at_rest(start);
+}
+
+void Builder::take_over(Bed base) {
+  falling_ = false;
   model_ = std::move(base.model), state_ = std::move(base.state), report_ = std::move(base.report);
   report_.from_cache = false;
-  ground_ = lay_subgrade(model_, state_, *physics_.subgrade);
+}
+
+void Builder::make_real() {
   hold_sleeper(held_along_track);
   soften(at_level(settings_.ramp_levels));
   model_.contact.friction = physics_.contact.friction, model_.drag_per_s = 0;
-  run_steps(settings_.preload_steps, {});
+}
+
+Bed Builder::loaded_and_at_rest(std::chrono::steady_clock::time_point start) {
   load_once();
   come_to_rest();
   finish();

@@ -1,6 +1,7 @@
 // Pours, tamps and relaxes a bed with the QDEM engine.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -25,8 +26,7 @@ struct Rest {
   double kinetic = 0.0;     ///< [J]; 0: not asked
 };
 
-/// Builds one bed; README.md describes the stages. Use once, for
-/// build() or lay_on_subgrade().
+/// Builds one bed; README.md describes the stages. Use once, for build(), lay_on_subgrade() or rest_anew().
 class Builder {
  public:
   Builder(const Settings& settings, const BedPhysics& physics);
@@ -38,6 +38,10 @@ class Builder {
   /// preload too, and at rest. Throws as build().
   Bed lay_on_subgrade(Bed base);
 
+  /// `base`, which was built with other material laws, at rest with those of the physics: loaded once more and relaxed.
+  /// Throws as build().
+  Bed rest_anew(Bed base);
+
  private:
   /// How soft stones are in a stage, and how the motion is damped.
   struct Softness {
@@ -47,6 +51,11 @@ class Builder {
   };
   /// Called every few steps with the time since the run began [s]; true ends it.
   using Look = std::function<bool(double)>;
+  void take_over(Bed base);
+  /// True moduli, contacts and friction, the sleeper held along the track.
+  void make_real();
+  /// The last of every way to a bed; `start`: when the work on it began.
+  Bed loaded_and_at_rest(std::chrono::steady_clock::time_point start);
   void make_stones();
   void pour_layer();
   void pour_crib();

@@ -37,8 +37,13 @@ double envelope_volume(const Template& shape, double size, double rounding) {
 }
 
 DrawnStones draw_bed(const Settings& settings, double rounding, Random& random) {
+  if (settings.scene == Scene::sleeper) return {};
   StoneTemplates stones = make_stone_templates(settings.shapes);
   DrawnStones drawn{std::move(stones.templates), std::move(stones.notes), {}, {}};
+  if (settings.scene == Scene::stone) {
+    drawn.layer.push_back({0, settings.gradation.size_at(0.5), settings.mixture.front().material_id});
+    return drawn;
+  }
   const auto volume_of = [&](int template_id, double size) {
     return envelope_volume(drawn.templates[template_id], size, rounding);
   };

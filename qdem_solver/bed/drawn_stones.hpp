@@ -20,7 +20,8 @@ struct DrawnStones {
 /// Volume of a stone of a template and sieve size [m3], its surface rounded by `rounding` [m] within that size.
 double envelope_volume(const Template& shape, double size, double rounding);
 
-/// As many as fill the layer and the crib at the target porosity. Throws proto::Error as make_stone_templates().
+/// Those of the scene: none, one of the first template and the size d50, or as many as fill the layer and the crib at
+/// the target porosity. Throws proto::Error as make_stone_templates().
 DrawnStones draw_bed(const Settings& settings, double rounding, Random& random);
 
 }  // namespace qdem::bed

@@ -41,6 +41,7 @@ BedForecast forecast_bed(const proto::CaseFile& file, const BedPhysics& physics)
   for (const Rates& rates : element_rates(model)) {
     forecast.stone_step_bound = std::min(forecast.stone_step_bound, largest_stable_step(rates));
   }
+  if (stones.empty()) forecast.stone_step_bound = sleeper_figures(file, physics).step_bound;
   const Template sleeper = bed::sleeper_mesh("sleeper", settings.sleeper, settings.sleeper_cells);
   forecast.elements = model.n_elements() + sleeper.n_tets();
   forecast.particles = sleeper.n_nodes();

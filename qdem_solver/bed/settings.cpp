@@ -136,6 +136,18 @@ SleeperShape read_sleeper(const Section& bed) {
   return box_sleeper(length, width, bed.number_or("sleeper_height_m", 0.2, Range::positive()));
 }
 
+/// A sleeper alone would fall.
+Scene read_scene(const proto::CaseFile& file) {
+  const Section bed = file.section("bed");
+  const std::string name = bed.choice_or("scene", "ballast", {"ballast", "sleeper", "stone"});
+  if (name == "ballast") return Scene::ballast;
+  if (name == "stone") return Scene::stone;
+  if (file.section("qdem").number_or("gravity_m_per_s2", 9.81, Range::not_negative()) > 0) {
+    bed.fail("scene", "nothing carries the sleeper", "set [qdem] gravity_m_per_s2 = 0");
+  }
+  return Scene::sleeper;
+}
+
 void read_geometry(const Section& bed, Settings& s) {
   s.sleeper = read_sleeper(bed);
   s.sleeper_cells = static_cast<int>(bed.integer_or("sleeper_cells_through_height", 4, Range::between(1, 20)));
@@ -149,6 +161,8 @@ void read_geometry(const Section& bed, Settings& s) {
 }
 
 void read_procedure(const Section& bed, Settings& s) {
+  const std::string law = bed.choice_or("poured_with", "", {"quadruple", "bond"});
+  if (!law.empty()) s.poured_with = law == "bond" ? Interaction::bond : Interaction::quadruple;
   s.target_porosity = bed.number_or("target_porosity", 0.41, Range::between(0.3, 0.6));
   s.pour_speed = bed.number_or("pour_speed_m_per_s", 1.5, Range::between(0.1, 5));
   s.pour_young = bed.number_or("pour_young_pa", 1e8, Range::positive());
@@ -225,6 +239,7 @@ std::vector<std::string> material_names(const proto::CaseFile& file) {
 Settings read_settings(const proto::CaseFile& file) {
   const Section bed = file.section("bed"), track = file.section("track");
   Settings s;
+  s.scene = read_scene(file);
   s.seed = static_cast<std::uint64_t>(bed.integer_or("seed", 1, Range::between(0, 1e9)));
   s.spacing = track.number("sleeper_spacing_m", Range::positive());
   s.seats = proto::read_rail_seats(file);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,22 @@
 #include "qdem_solver/bed/gradation.hpp"
 #include "qdem_solver/bed/sleeper_shape.hpp"
 #include "qdem_solver/bed/stone_shape.hpp"
+#include "qdem_solver/model/model.hpp"
 
 namespace qdem::bed {
 
+/// What is modelled.
+enum class Scene {
+  ballast,  ///< the sleeper in its bed
+  sleeper,  ///< the sleeper alone
+  stone,    ///< one stone
+};
+
 /// Every key of `[bed]`, SI. README.md lists the keys with their defaults.
 struct Settings {
+  Scene scene = Scene::ballast;
   std::uint64_t seed = 1;
+  std::optional<Interaction> poured_with;  ///< law of the bodies while the bed is built; none: that of the run
 
   SleeperShape sleeper;
   int sleeper_cells = 4;  ///< through its height

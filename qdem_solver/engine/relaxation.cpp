@@ -54,6 +54,7 @@ double relaxation_step(const Model& model, int n_contacts, double safety) {
     mass += model.body_mass(b);
     ++n;
   }
+  if (n == 0) mass = model.body_mass(model.pad_body), n = 1;
   const Rates rates = rigid_contacts(model, n_contacts, mass / n);
   const Rates doubled{rates.stiffness / budget, rates.damping / budget};
   return safety * largest_stable_step(doubled);

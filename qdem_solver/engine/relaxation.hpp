@@ -20,7 +20,7 @@ inline double relaxation_drag(double local_damping, double dt) {
   return dt > 0 ? 0.05 * local_damping / dt : 0.0;
 }
 
-/// Step that a stone of mean mass with `n_contacts` contact points takes at `safety` of its bound as a rigid body [s].
+/// Step that a stone of mean mass, or where there is none the sleeper, with `n_contacts` contact points takes at `safety` of its bound as a rigid body [s].
 ///
 /// Stones of rock are a hundred times stiffer than their contacts, and so limit the true step to a small part of this.
 double relaxation_step(const Model& model, int n_contacts, double safety);

@@ -23,11 +23,11 @@ struct BeamSolid {
   double young, poisson, density;
 };
 
-/// First bending frequency [Hz] of the free beam [0, length]: two-node elements with the shear-flexible cubic
-/// (Przemieniecki), the section of their middle, lumped mass and rotary inertia. Shear coefficient of a rectangle
-/// (Cowper 1966). That the centroid's line is not quite straight is left out.
-inline double first_free_bending(const std::function<BeamSection(double)>& section, double length,
-                                 const BeamSolid& solid, int n_elements = 200) {
+/// Bending frequency [Hz] number `mode`, from 1, of the free beam [0, length]: two-node elements with the
+/// shear-flexible cubic (Przemieniecki), the section of their middle, lumped mass and rotary inertia. Shear coefficient
+/// of a rectangle (Cowper 1966). That the centroid's line is not quite straight is left out.
+inline double free_bending(const std::function<BeamSection(double)>& section, double length, const BeamSolid& solid,
+                           int mode = 1, int n_elements = 200) {
   const double l = length / n_elements, kappa = 10 * (1 + solid.poisson) / (12 + 11 * solid.poisson);
   const int n = 2 * (n_elements + 1);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n);
@@ -49,7 +49,7 @@ inline double first_free_bending(const std::function<BeamSection(double)>& secti
   const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(root.asDiagonal() * stiffness * root.asDiagonal(),
                                                               Eigen::EigenvaluesOnly);
-  return std::sqrt(solver.eigenvalues()[2]) / (2 * M_PI);  // after two rigid motions
+  return std::sqrt(solver.eigenvalues()[1 + mode]) / (2 * M_PI);  // after two rigid motions
 }
 
 }  // namespace tests

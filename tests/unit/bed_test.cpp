@@ -5,6 +5,7 @@
 
 #include "proto/error.hpp"
 #include "qdem_solver/bed/bed.hpp"
+#include "qdem_solver/bed/lone_body.hpp"
 #include "qdem_solver/bed/loose_stack.hpp"
 #include "qdem_solver/bed/porosity.hpp"
 #include "qdem_solver/bed/settings.hpp"
@@ -366,6 +367,42 @@ TEST(BedHash, KnowsHowParticlesInteract) {
   const auto quadruples = bed_hash(file, physics);
   physics.sleeper.interaction = qdem::Interaction::bond;
   EXPECT_NE(bed_hash(file, physics), quadruples);
+}
+
+TEST(BedHash, KnowsWhichLawABedIsPouredWith) {
+  const auto hash = [](const std::string& bed, qdem::Interaction of_run) {
+    qdem::BedPhysics physics;
+    physics.stone.interaction = physics.sleeper.interaction = of_run;
+    return bed_hash(proto::CaseFile::load(case_with(bed)), physics);
+  };
+  const std::string otherwise = "poured_with = \"quadruple\"\n";
+  EXPECT_EQ(hash("", qdem::Interaction::quadruple), hash(otherwise, qdem::Interaction::quadruple));
+  EXPECT_NE(hash("", qdem::Interaction::bond), hash(otherwise, qdem::Interaction::bond));
+}
+
+TEST(LoneBody, ASleeperAloneWantsNoGravity) {
+  EXPECT_NE(refusal("scene = \"sleeper\"\n").find("gravity_m_per_s2 = 0"), std::string::npos);
+  EXPECT_EQ(refusal("scene = \"sleeper\"\n[qdem]\ngravity_m_per_s2 = 0.0\n"), "");
+  EXPECT_NE(refusal("scene = \"stones\"\n").find("did you mean 'stone'"), std::string::npos);
+}
+
+/// However it is tilted, its centre rises over its lowest point.
+TEST(LoneBody, AStoneStandsSafely) {
+  const auto templates = make_stone_templates({4, {1.1, 1.7}, {0.55, 0.95}, 36, 80, 3}).templates;
+  for (const qdem::Template& stone : templates) {
+    Vector3d centre = Vector3d::Zero();
+    for (int i = 0; i < stone.n_nodes(); ++i) centre += stone.node_volumes[i] / stone.volume() * stone.nodes[i];
+    const auto height = [&](const Eigen::Matrix3d& rotation) {
+      double lowest = 0.0;
+      for (const Vector3d& node : stone.nodes) lowest = std::min(lowest, (rotation * (node - centre))[2]);
+      return -lowest;
+    };
+    const Eigen::Matrix3d resting = resting_rotation(stone);
+    for (int i = 0; i < 16; ++i) {
+      const Vector3d axis(std::cos(i * M_PI / 8), std::sin(i * M_PI / 8), 0.0);
+      EXPECT_GT(height(Eigen::AngleAxisd(0.01, axis) * resting), height(resting)) << stone.name << ", tilt " << i;
+    }
+  }
 }
 
 TEST(BedHash, KnowsTheContactLaw) {
