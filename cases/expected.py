@@ -4,7 +4,7 @@
     name = "bond"                # folder below the case's output; may be left out where there is one run
     title = "..."                # for the table
     changes = { "qdem.particle_interaction" = "bond" }     # keys of case.toml that differ, SECTION.KEY; also of a
-                                 # [[SECTION]] that stands there once
+                                 # [[SECTION]] that stands there once; a sub-table that is not there is added
     by = ["cases/run", "suite"]  # who makes this run; default: cases/run alone
     analyze = ["--bins", "4"]    # further arguments of "coupler analyze"
 

@@ -21,11 +21,19 @@ sys.dont_write_bytecode = True  # a folder here is a case
 from expected import CaseRun, ExpectedError, judge, read_expected, table_of  # noqa: E402
 
 
+def places_of(section: str, text: str) -> list:
+    """Where the heads of a table stand."""
+    return list(re.finditer(rf"^\[{{1,2}}{re.escape(section)}\]{{1,2}}.*\n", text, re.MULTILINE))
+
+
 def changed_case(text: str, changes: dict) -> str:
-    """`text` of a case file with the keys SECTION.KEY of `changes` set. A section must stand there once."""
+    """`text` of a case file with the keys SECTION.KEY of `changes` set. A section stands there once; a sub-table of one
+    that stands there is added."""
     for name, value in changes.items():
         section, key = name.rsplit(".", 1)
-        heads = list(re.finditer(rf"^\[{{1,2}}{re.escape(section)}\]{{1,2}}.*\n", text, re.MULTILINE))
+        if not places_of(section, text) and "." in section and places_of(section.rsplit(".", 1)[0], text):
+            text += f"\n[{section}]\n"
+        heads = places_of(section, text)
         if len(heads) != 1:
             raise ExpectedError(f"[{section}] stands {len(heads)} times in case.toml, wanted once - change '{name}'")
         start = heads[0].end()

@@ -4,10 +4,13 @@
 
 namespace coupler {
 
+void refuse_unknown_sections(const proto::CaseFile& file) {
+  file.refuse_unknown_sections({"coupling", "track", "rail_seat", "bed", "qdem", "fem", "wheel", "oscillator"});
+}
+
 CaseInput read_case(const std::string& path) {
   auto file = proto::CaseFile::load(path);
-  // Only the coupler sees the case as a whole; what is inside a solver's section is for that solver to check.
-  file.refuse_unknown_sections({"coupling", "track", "rail_seat", "bed", "qdem", "fem", "wheel", "oscillator"});
+  refuse_unknown_sections(file);
   auto coupling = proto::read_coupling(file);
   auto seats = proto::read_rail_seats(file);
   return {std::move(file), std::move(coupling), std::move(seats), {}};

@@ -18,6 +18,10 @@ struct CaseInput {
   std::set<std::string> awaited;  ///< participants that somebody else starts
 };
 
+/// Only the coupler sees the case as a whole; what is inside a solver's section is for that solver to check. Throws
+/// proto::Error (config).
+void refuse_unknown_sections(const proto::CaseFile& file);
+
 /// Reads and checks the coupler's own and the common sections. Throws proto::Error (config, missing_input).
 CaseInput read_case(const std::string& path);
 
