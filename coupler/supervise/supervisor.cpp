@@ -116,9 +116,11 @@ std::string Supervisor::where_to_look(const Known& known) const {
 }
 
 void Supervisor::report_death(const std::string& name, const ChildExit& exit) {
-  // A fault it sent before it went says more than its exit code; take() throws it.
+  // A fault it sent before it went says more than its exit code; take() throws it. Who went with 0 has said Bye, and on
+  // a busy machine that takes its time.
   const auto start = Clock::now();
-  while (seconds_since(start) < 0.2 && !known_.at(name).finished)
+  const double patience_s = exit.code == 0 && exit.signal == 0 ? 2.0 : 0.2;
+  while (seconds_since(start) < patience_s && !known_.at(name).finished)
     for (const auto& event : endpoint_.wait(0.05))
       if (event.message) take(event);
   const auto& known = known_.at(name);

@@ -24,6 +24,7 @@ PatchGrid read_grid(const proto::Section& section, const std::optional<PatchElli
 ContactGeometry read_geometry(const proto::Section& section, double wheel_radius, double crown_radius) {
   ContactGeometry geometry{1 / wheel_radius, crown_radius > 0 ? 1 / crown_radius : 0.0, {}, 0.0};
   if (!section.has("wheel_profile") && !section.has("rail_profile")) return geometry;
+  for (const char* key : {"wheel_profile", "rail_profile"}) section.text(key);  // both are there, whatever they name
   geometry.profiles = {SurfaceProfile(section.existing_path("wheel_profile")),
                        SurfaceProfile(section.existing_path("rail_profile"))};
   geometry.wheel_shift = section.number_or("wheel_shift_m", 0.0);

@@ -68,9 +68,7 @@ Irregularity read_defect(const proto::Section& section, double radius) {
   const std::string kind = section.choice_or("kind", "none", {"none", "fresh_flat", "rounded_flat", "polygon"});
   if (kind == "fresh_flat" || kind == "rounded_flat") {
     r.kind = kind == "fresh_flat" ? IrregularityKind::fresh_flat : IrregularityKind::rounded_flat;
-    r.length = section.number("length_m", Range::positive());
-    if (r.length > radius / 2)
-      section.fail("length_m", "the flat is longer than half the wheel's radius", "give a shorter one");
+    r.length = section.number("length_m", {0.0, radius / 2, true});  // a flat, not half a wheel
     if (kind == "rounded_flat") r.depth = section.number("depth_m", Range::not_negative());
     r.position = section.number("position_m");
   } else if (kind == "polygon") {

@@ -158,9 +158,9 @@ class Explorer {
 
 }  // namespace
 
-std::string case_schema(const std::vector<CaseReader>& readers, const std::string& seed) {
+std::string case_schema(const std::vector<CaseReader>& readers, const std::vector<std::string>& seeds) {
   Explorer explorer(readers);
-  explorer.explore(seed);
+  for (const auto& seed : seeds) explorer.explore(seed);
   auto schema = explorer.section("");
   schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   return schema.dump(2);

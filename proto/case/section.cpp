@@ -189,18 +189,32 @@ std::vector<Section> Section::sections(const std::string& key) const {
   return result;
 }
 
+namespace {
+
+/// Throws for a key of the table that nobody asked for: of several for the one that is most like a key that somebody
+/// did ask for, because the others may be unknown for its sake (a "kind" that is misspelt).
+void refuse_unknown(const Section::Data& data) {
+  const toml::key* unknown = nullptr;
+  std::string nearest;
+  for (const auto& item : *data.table) {
+    const std::string key(item.first.str());
+    if (data.asked.count(key)) continue;
+    const auto name = nearest_name(key, data.asked);
+    const bool nearer = !name.empty() && (nearest.empty() || edit_distance(key, name) <
+                                                                 edit_distance(std::string(unknown->str()), nearest));
+    if (!unknown || nearer) unknown = &item.first, nearest = name;
+  }
+  if (!unknown) return;
+  throw Error(ExitCode::config, "unknown key", data.where(unknown->source(), std::string(unknown->str())),
+              nearest.empty() ? "valid keys: " + joined({data.asked.begin(), data.asked.end()})
+                              : "did you mean '" + nearest + "'?");
+}
+
+}  // namespace
+
 void Section::finish() const {
   if (data_->document->notes) return;  // a made-up case may hold keys that another choice needs
-  if (data_->table) {
-    for (const auto& item : *data_->table) {
-      const std::string key(item.first.str());
-      if (data_->asked.count(key)) continue;
-      const auto nearest = nearest_name(key, data_->asked);
-      throw Error(ExitCode::config, "unknown key", data_->where(item.first.source(), key),
-                  nearest.empty() ? "valid keys: " + joined({data_->asked.begin(), data_->asked.end()})
-                                  : "did you mean '" + nearest + "'?");
-    }
-  }
+  if (data_->table) refuse_unknown(*data_);
   for (const auto& item : data_->tables) Section(item.second).finish();
   for (const auto& item : data_->arrays)
     for (const auto& data : item.second) Section(data).finish();

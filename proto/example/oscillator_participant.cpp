@@ -363,7 +363,7 @@ int run(int argc, char** argv) {
   }
   if (schema->parsed()) {
     std::printf("%s\n",
-                case_schema({[](const CaseFile& any) { read_case(any); }}, "rail_seat = [{cells = [1, 1]}]").c_str());
+                case_schema({[](const CaseFile& any) { read_case(any); }}, {"rail_seat = [{cells = [1, 1]}]"}).c_str());
     return 0;
   }
   const auto file = CaseFile::load(path);

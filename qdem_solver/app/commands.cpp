@@ -60,15 +60,20 @@ void check_command(const proto::CaseFile& file) {
 
 void schema_command() {
   // Two materials must be there; a third one shows that a case may have names of its own.
-  const std::string seed = R"(
+  const std::string common = R"(
 bed.stone_materials = ["stone", "x"]
 qdem.material = [{name = "stone"}, {name = "sleeper"}, {name = "x"}]
-qdem.contact = {damping_ratio = 0.5, normal_stiffness_n_per_m = 1e6}
 rail_seat = [{half_lengths_m = [0.05, 0.05]}]
 )";
+  std::vector<std::string> seeds;  // one for each way in which a contact's stiffness and damping may be given
+  for (const char* contact : {"{normal_stiffness_n_per_m = 1e6, damping_ratio = 0.5}",
+                              "{hertz_load_n = 1.0, hertz_radius_m = 1.0, restitution = 0.5}",
+                              "{contact_time_s = 1e-3, contact_mass_kg = 1.0, damping_ratio = 0.5}"}) {
+    seeds.push_back(common + "qdem.contact = " + contact + "\n");
+  }
   fmt::print("{}\n", proto::case_schema({[](const proto::CaseFile& file) { read_qdem_case(file); },
                                          [](const proto::CaseFile& file) { bed::read_settings(file); }},
-                                        seed));
+                                        seeds));
 }
 
 void print_figures(const proto::CaseFile& file) {

@@ -115,7 +115,7 @@ TEST(Converge, ReportsTheOrder) {
     std::printf("%s", table.substr(table.find("observed orders")).c_str());
     EXPECT_FALSE(tests::read_text(coupled.out() + "/convergence.csv").empty());
     EXPECT_TRUE(tests::contains(tests::read_text(coupled.out() + "/convergence.gnuplot"), "seat mean pad force"));
-    EXPECT_TRUE(tests::contains(table, "plot in ") || tests::contains(table, "gnuplot is not installed")) << table;
+    EXPECT_TRUE(tests::contains(table, "picture in ") || tests::contains(table, "gnuplot is not installed")) << table;
   }
 }
 

@@ -33,6 +33,7 @@ TOLD_BY_ANOTHER_KEY = {
     "coupling.initialise.max_windows": "max_windows",
     "qdem.sensor_interval_s": "sensor_interval_s",
     "qdem.run.load.drop_height_m": "drop_height_m",
+    "qdem.run.load.half_lengths_m": "half_lengths_m",
     "qdem.contact.normal_stiffness_n_per_m": "normal_stiffness_n_per_m",
     "qdem.contact.damping_ratio": "damping_ratio",
 }
@@ -95,7 +96,7 @@ def wrong_values(schema):
 def mutations(key, lines):
     """(what, changed line or lines, line of the complaint or None, words of the complaint)"""
     name, line = key.name, lines[key.line]
-    short = name[:2] + name[3:]
+    short = name[:2] + name[3:] if len(name) > 2 else name[0]
     misspelt = line.replace(name, short, 1)
     if key.full_name in TOLD_BY_ANOTHER_KEY:
         yield "misspelt", misspelt, None, [TOLD_BY_ANOTHER_KEY[key.full_name]]

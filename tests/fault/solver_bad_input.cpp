@@ -115,7 +115,7 @@ const BadInput bad_inputs[] = {
      {{"radius_m", "0.43\n[wheel.defect]\nkind = \"fresh_flat\"\nlength_m = 0.3\nposition_m = 0.0"}},
      ExitCode::config,
      "fem",
-     {"the flat is longer than half the wheel's radius", "wheel.defect.length_m"}},
+     {"the value must be greater than 0 and at most 0.215, found 0.3", "wheel.defect.length_m"}},
     {"pad_that_softens",
      {{"element_length_m", "0.38\n[fem.support]\npad_second_stiffness_n_per_m = 1e6"}},
      ExitCode::config,
