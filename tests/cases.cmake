@@ -17,6 +17,8 @@ if(TARGET coupler AND TARGET qdem_solver AND TARGET fem_solver)
   case_test(sleeper_impulse)
   case_test(drop_weight TIMEOUT 1500)
   case_test(qdem_vs_dem TIMEOUT 1500)
-  set_tests_properties(case_drop_weight case_qdem_vs_dem PROPERTIES DEPENDS wheel_passage_test)  # it builds the bed they use
+  case_test(dipped_joint TIMEOUT 1500)
+  case_test(wheel_flat TIMEOUT 1500)
+  set_tests_properties(case_drop_weight case_qdem_vs_dem case_dipped_joint case_wheel_flat PROPERTIES DEPENDS wheel_passage_test)  # it builds the bed they use
   contract_test(expected_values bash ${contract}/expected_values.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE_DIR:coupler>)
 endif()
