@@ -50,7 +50,12 @@ std::string why_too_large(hid_t dataset, hsize_t n) {
   if (H5Pget_layout(properties_of(dataset).id()) == H5D_VIRTUAL) return {};
   const Handle type(H5Dget_type(dataset), H5Tclose);
   const hsize_t bytes = n * H5Tget_size(type.id());
-  return bytes / largest_ratio > H5Dget_storage_size(dataset) ? "it claims more values than the file can hold" : "";
+  // The file's size, not the dataset's own: of a writer that was killed the index may be torn behind the committed
+  // rows, and HDF5 then knows no size of the dataset.
+  const Handle file(H5Iget_file_id(dataset), H5Fclose);
+  hsize_t file_bytes = 0;
+  if (H5Fget_filesize(file.id(), &file_bytes) < 0) return "the file has no size";
+  return bytes / largest_ratio > file_bytes ? "it claims more values than the file can hold" : "";
 }
 
 }  // namespace proto::hdf5

@@ -19,7 +19,7 @@ bool lies_within(hid_t file, const std::string& object);
 std::string why_not_read(hid_t dataset);
 
 /// Why memory is not reserved for `n` values of a dataset; "" when nothing speaks against it. A file of some kilobytes
-/// can claim any size; more than deflate's largest ratio (1032) over what is stored is not believed, nor more values
+/// can claim any size; more than deflate's largest ratio (1032) over the file's size is not believed, nor more values
 /// than 2^40.
 std::string why_too_large(hid_t dataset, hsize_t n);
 
