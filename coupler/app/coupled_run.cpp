@@ -64,14 +64,13 @@ CoupledRun::CoupledRun(const CaseInput& input, const RunFolder& folder, spdlog::
   }
   supervisor_.on_long_set_up([this](const std::string& text) {
     fmt::print(stderr, "{}\n", text);
-    status_.now().note = text;
     update_wall_time();
+    status_.now().note = text, status_.now().wall = summary_.wall;
     status_.write();
   });
   supervisor_.on_turned_away([this](const std::string& text) { log_.warn("{}", text); });
   for (const auto& seat : input.seats) summary_.seats.push_back({seat.name, 0.0, 0.0, 0.0});
-  status_.now().phase = "starting";
-  status_.write();
+  begin_phase("starting", 0);
 }
 
 CoupledRun::~CoupledRun() {
@@ -258,6 +257,7 @@ void CoupledRun::add_window(const WindowRecord& record) {
 void CoupledRun::begin_phase(const char* name, std::int64_t n_windows) {
   auto& now = status_.now();
   now.phase = name, now.n_windows_wanted = n_windows, now.n_windows = 0;
+  now.seats.clear();
   status_.write();
 }
 

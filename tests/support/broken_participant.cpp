@@ -11,6 +11,7 @@
 #include "proto/case/rail_seat.hpp"
 #include "proto/result/state_file.hpp"
 #include "tests/support/careless_wire.hpp"
+#include "tests/support/command_option.hpp"
 #include "tests/support/oscillator_sides.hpp"
 
 namespace {
@@ -167,12 +168,6 @@ proto::FieldSet Broken<Model>::advance(const proto::Advance& request, proto::Pro
   return data;
 }
 
-std::string option(int argc, char** argv, const std::string& name) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (argv[i] == name) return argv[i + 1];
-  return {};
-}
-
 /// A process that nobody ends with its parent; for a minute.
 void leave_a_child() {
   if (fork() != 0) return;
@@ -184,6 +179,7 @@ void leave_a_child() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using tests::option;
   try {
     const auto file = proto::CaseFile::load(option(argc, argv, "--case"));
     const auto seat = proto::read_rail_seats(file).front();

@@ -7,6 +7,7 @@
 
 #include "proto/case/rail_seat.hpp"
 #include "proto/session/participant.hpp"
+#include "tests/support/command_option.hpp"
 #include "tests/support/linear_problems.hpp"
 
 namespace {
@@ -163,15 +164,10 @@ class Sleeper : public LinearParticipant {
   tests::LinearSleeper sleeper_;
 };
 
-std::string option(int argc, char** argv, const std::string& name) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (argv[i] == name) return argv[i + 1];
-  return {};
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
+  using tests::option;
   try {
     const auto file = proto::CaseFile::load(option(argc, argv, "--case"));
     const auto seats = proto::read_rail_seats(file);

@@ -14,6 +14,7 @@
 
 #include "proto/case/rail_seat.hpp"
 #include "proto/session/participant.hpp"
+#include "tests/support/command_option.hpp"
 #include "tests/support/oscillator_sides.hpp"
 
 namespace {
@@ -124,15 +125,10 @@ proto::Interface Relaxing<Model>::describe() {
   return interface;
 }
 
-std::string option(int argc, char** argv, const std::string& name) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (argv[i] == name) return argv[i + 1];
-  return {};
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
+  using tests::option;
   try {
     const auto file = proto::CaseFile::load(option(argc, argv, "--case"));
     const auto seat = proto::read_rail_seats(file).front();
